@@ -1,0 +1,2 @@
+//! rayloom
+fn main() {}
