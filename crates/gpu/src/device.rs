@@ -63,8 +63,14 @@ impl Gpu {
     /// Opens the fastest adapter (or the named one) with all its optional abilities that are not hidden, and with its
     /// own maxima as limits. The `WGPU_BACKEND` environment variable narrows the choice.
     pub fn new(options: &GpuOptions) -> Result<Self, GpuError> {
-        let instance =
-            wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+        let instance = wgpu::Instance::new(
+            wgpu::InstanceDescriptor {
+                // OpenGL has too little of what the ray loop needs, and merely looking for it can be noisy.
+                backends: wgpu::Backends::PRIMARY,
+                ..wgpu::InstanceDescriptor::new_without_display_handle()
+            }
+            .with_env(),
+        );
         let adapter = match &options.adapter {
             Some(name) => named_adapter(&instance, name)?,
             None => fastest_adapter(&instance)?,
@@ -174,7 +180,7 @@ fn fastest_adapter(instance: &wgpu::Instance) -> Result<wgpu::Adapter, GpuError>
 }
 
 fn named_adapter(instance: &wgpu::Instance, name: &str) -> Result<wgpu::Adapter, GpuError> {
-    let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()));
+    let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));
     let names: Vec<String> = adapters
         .iter()
         .map(|adapter| adapter.get_info().name)
