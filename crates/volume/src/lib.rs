@@ -1,1 +1,22 @@
-//! volume
+//! Volumes, transfer functions, readers, generators, histograms and min-max bricks. No GPU.
+//!
+//! Three kinds of coordinates occur:
+//! * *index*: voxel centres at integers, the box of the volume is `-0.5 ..= dims - 0.5`;
+//! * *texture*: `(index + 0.5) / dims`, the box is `0 ..= 1`;
+//! * *world*: physical coordinates, right-anterior-superior millimetres where the format defines a patient space.
+//!
+//! Values are *data units* (`stored * slope + intercept`) unless a function says *normalised*, which maps the
+//! finite range of a channel to `0 ..= 1`.
+
+mod range;
+mod transfer;
+mod volume;
+mod voxels;
+
+pub use range::{ValueRange, fraction};
+pub use transfer::{
+    Knot, Label, LabelTable, MAX_EXTINCTION, Medium, Primitive, Rgba, RightSide, Shape,
+    TransferFunction, TransferFunction2D, TransferFunctionError, extinction, table_interval,
+};
+pub use volume::{Volume, VolumeError, VolumeRole};
+pub use voxels::{Element, ElementType, Voxels};
