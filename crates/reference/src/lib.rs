@@ -1,1 +1,34 @@
-//! reference
+//! The yardstick of Rayloom: a float64 raycaster on the CPU, closed forms and error metrics.
+//!
+//! Nothing here shares code with the GPU ray loop but the definitions of volumes and transfer functions; agreement between
+//! the two is evidence.
+//!
+//! - [`same_samples`] takes the very samples the GPU takes, in float64: what remains between the two pictures is the
+//!   arithmetic of the GPU. Refining its rate shows the discretisation error.
+//! - [`closed_forms`] are scenes whose exact value is a formula: they judge both.
+//! - [`metrics`] measure how far two pictures are apart.
+//!
+//! [`scene`], [`camera`], [`ray`], [`field`] and [`gradient`] say what is rendered and are independent of how the integral
+//! along a ray is taken. An integrator without samples belongs beside [`same_samples`] and stands on the same five.
+//!
+//! # Spaces
+//! *World*: physical units of the volume. *Texture*: the volume box is `0..1` on each axis. *Index*: voxel centres at
+//! integers, `index = texture · dims - 0.5`.
+
+pub mod camera;
+pub mod closed_forms;
+pub mod field;
+pub mod gradient;
+pub mod image;
+pub mod metrics;
+pub mod ray;
+pub mod same_samples;
+pub mod scene;
+pub mod shading;
+pub mod special;
+mod spline;
+
+pub use camera::{Camera, Projection};
+pub use image::{Image, MISS, Rectangle};
+pub use metrics::Comparison;
+pub use scene::{Method, Refinement, Scene, SceneError};

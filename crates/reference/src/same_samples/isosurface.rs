@@ -1,0 +1,90 @@
+//! The first crossing of a value.
+
+use super::{Path, Renderer};
+use crate::image::PixelResult;
+use crate::scene::Refinement;
+use glam::DVec3;
+
+/// A point of an isosurface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfaceHit {
+    /// Where, in texture coordinates.
+    pub texture: DVec3,
+    /// Where, in world space.
+    pub world: DVec3,
+    /// Unit normal in world space, towards smaller values; zero where the field is flat.
+    pub normal: DVec3,
+    /// View depth in world units.
+    pub depth: f64,
+}
+
+/// A position on a ray, in steps, and how far the value there lies above the isovalue.
+#[derive(Debug, Clone, Copy)]
+struct Point {
+    position: f64,
+    excess: f64,
+}
+
+impl Point {
+    fn is_inside(self) -> bool {
+        self.excess >= 0.0
+    }
+}
+
+impl Renderer<'_> {
+    pub(super) fn isosurface(&self, path: &Path, isovalue: f64, refinement: Refinement) -> PixelResult {
+        let Some(position) = self.crossing(path, isovalue, refinement) else { return PixelResult::NOTHING };
+        let color = self.scene.classification.evaluate(isovalue).color;
+        let [r, g, b] = self.lit(color, path.texture(position), &path.ray);
+        PixelResult { color: [r, g, b, 1.0], depth: path.depth(position) }
+    }
+
+    pub(super) fn surface_hit(&self, path: &Path, isovalue: f64, refinement: Refinement) -> Option<SurfaceHit> {
+        let position = self.crossing(path, isovalue, refinement)?;
+        let texture = path.texture(position);
+        let gradient = self.scene.gradient.gradient(&self.field, self.field.texture_to_index(texture));
+        Some(SurfaceHit {
+            texture,
+            world: self.texture_to_world.transform_point3(texture),
+            normal: self.normal(gradient),
+            depth: path.depth(position),
+        })
+    }
+
+    /// Position of the first crossing, in steps. A ray that enters inside is not cut there: it crosses where it comes out.
+    fn crossing(&self, path: &Path, isovalue: f64, refinement: Refinement) -> Option<f64> {
+        let at = |position: f64| Point { position, excess: self.value(path, position) - isovalue };
+        let mut previous = at(0.0);
+        for sample in path.lattice.samples() {
+            let current = at(sample.position);
+            if current.is_inside() != previous.is_inside() {
+                return Some(refine(at, previous, current, refinement));
+            }
+            previous = current;
+        }
+        None
+    }
+}
+
+/// Locates the crossing between `before` and `after`, which lie on different sides.
+fn refine(at: impl Fn(f64) -> Point, mut before: Point, mut after: Point, refinement: Refinement) -> f64 {
+    let middle = |before: Point, after: Point| 0.5 * (before.position + after.position);
+    let chord = |before: Point, after: Point| {
+        before.position + (after.position - before.position) * before.excess / (before.excess - after.excess)
+    };
+    let (steps, guess): (u32, &dyn Fn(Point, Point) -> f64) = match refinement {
+        Refinement::None => return after.position,
+        Refinement::Linear => (0, &chord),
+        Refinement::Bisection(halvings) => (halvings, &middle),
+        Refinement::Secant(steps) => (steps.saturating_sub(1), &chord),
+    };
+    for _ in 0..steps {
+        let point = at(guess(before, after));
+        if point.is_inside() == before.is_inside() {
+            before = point;
+        } else {
+            after = point;
+        }
+    }
+    guess(before, after)
+}

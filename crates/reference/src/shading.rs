@@ -1,0 +1,83 @@
+//! Local illumination from the gradient of the field.
+
+use crate::camera::View;
+use glam::DVec3;
+
+/// The space in which the direction of a light is given.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LightSpace {
+    /// Fixed to the camera: x right, y up, z towards the viewer.
+    Camera,
+    /// Fixed to the world.
+    World,
+}
+
+/// Blinn-Phong lighting by one distant light.
+///
+/// With the unit normal `n`, the unit vector `l` towards the light and `h` halfway between it and the viewer, a straight
+/// colour `c` becomes `c (ambient + diffuse max(n·l, 0)) + specular max(n·h, 0)^shininess`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BlinnPhong {
+    /// Share of the colour that needs no light.
+    pub ambient: f64,
+    /// Share of the colour under perpendicular light.
+    pub diffuse: f64,
+    /// Strength of the highlight.
+    pub specular: f64,
+    /// Exponent of the highlight.
+    pub shininess: f64,
+    /// Direction towards the light, of any length.
+    pub light_direction: DVec3,
+    /// The space of `light_direction`.
+    pub light_space: LightSpace,
+    /// Colour of the light; multiplies the diffuse and the specular term.
+    pub light_color: [f64; 3],
+    /// Whether normals that point away from the viewer are turned around.
+    pub two_sided: bool,
+    /// Gradient magnitude, in shares of the value range per voxel, at which the colour is half lit; weaker gradients, whose
+    /// direction is mostly noise, fade to the unlit colour. Zero lights every gradient but none.
+    pub gradient_fade: f64,
+}
+
+impl Default for BlinnPhong {
+    /// A white light from the upper right behind the viewer, two-sided, without fading.
+    fn default() -> Self {
+        Self {
+            ambient: 0.2,
+            diffuse: 0.8,
+            specular: 0.3,
+            shininess: 32.0,
+            light_direction: DVec3::new(0.3, 0.4, 1.0),
+            light_space: LightSpace::Camera,
+            light_color: [1.0; 3],
+            two_sided: true,
+            gradient_fade: 0.0,
+        }
+    }
+}
+
+impl BlinnPhong {
+    /// Unit vector towards the light in world space.
+    pub fn towards_light(&self, view: &View) -> DVec3 {
+        let direction = match self.light_space {
+            LightSpace::Camera => view.camera_to_world(self.light_direction),
+            LightSpace::World => self.light_direction,
+        };
+        direction.normalize_or_zero()
+    }
+
+    /// The lit straight colour of material of colour `color` with unit `normal`, all vectors unit and in world space.
+    pub fn light(&self, color: [f64; 3], normal: DVec3, towards_light: DVec3, towards_viewer: DVec3) -> [f64; 3] {
+        let flip = self.two_sided && normal.dot(towards_viewer) < 0.0;
+        let normal = if flip { -normal } else { normal };
+        let halfway = (towards_light + towards_viewer).normalize_or_zero();
+        let diffuse = self.diffuse * normal.dot(towards_light).max(0.0);
+        let specular = self.specular * normal.dot(halfway).max(0.0).powf(self.shininess);
+        [0, 1, 2].map(|i| color[i] * (self.ambient + diffuse * self.light_color[i]) + specular * self.light_color[i])
+    }
+
+    /// How much of the lit colour shows, 0 to 1, for a gradient of `magnitude` in shares of the range per voxel.
+    pub fn weight(&self, magnitude: f64) -> f64 {
+        if magnitude > 0.0 { magnitude / (magnitude + self.gradient_fade) } else { 0.0 }
+    }
+}
