@@ -49,12 +49,18 @@ impl TexturePool {
         Ok(texture)
     }
 
-    /// Frees the memory of all textures that nobody holds, and returns how many bytes that were.
-    pub fn trim(&mut self) -> u64 {
-        let before = self.bytes();
-        self.textures
-            .retain(|texture| Arc::strong_count(texture) > 1);
-        before - self.bytes()
+    /// Frees textures that nobody holds until at most `keep` bytes of such are left, the oldest first, and returns how
+    /// many bytes that were.
+    pub fn trim(&mut self, keep: u64) -> u64 {
+        let is_free = |texture: &Arc<Texture>| Arc::strong_count(texture) == 1;
+        let free: u64 = self.textures.iter().filter(|t| is_free(t)).map(|t| t.bytes()).sum();
+        let mut freed = 0;
+        self.textures.retain(|texture| {
+            let goes = is_free(texture) && free - freed > keep;
+            freed += if goes { texture.bytes() } else { 0 };
+            !goes
+        });
+        freed
     }
 
     /// Bytes of all textures of the pool, in use or free.

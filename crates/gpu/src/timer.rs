@@ -77,6 +77,11 @@ impl Timer {
         })
     }
 
+    /// Forgets the passes handed out since the last [`Timer::finish`], which may not have been submitted.
+    pub fn discard(&self) {
+        self.used.set(0);
+    }
+
     /// The summed time of the passes handed out since the last call, all of which must have been submitted; `None`
     /// if there were none, or nothing can be measured. Waits for the device.
     pub fn finish(&self, gpu: &Gpu) -> Result<Option<Duration>, GpuError> {
