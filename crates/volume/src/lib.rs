@@ -9,11 +9,13 @@
 //! finite range of a channel to `0 ..= 1`.
 
 mod range;
+mod read;
 mod transfer;
 mod volume;
 mod voxels;
 
 pub use range::{ValueRange, fraction};
+pub use read::{Format, Progress, ReadError, format_of, formats, read};
 pub use transfer::{
     Knot, Label, LabelTable, MAX_EXTINCTION, Medium, Primitive, Rgba, RightSide, Shape,
     TransferFunction, TransferFunction2D, TransferFunctionError, extinction, table_interval,
