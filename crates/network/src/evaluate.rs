@@ -1,0 +1,376 @@
+//! The evaluator: runs exactly the processors whose result would differ from the one it has.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::time::Instant;
+
+use crate::job::{Backend, Input, Job, Outputs, ProcessError};
+use crate::names::{Address, quoted};
+use crate::network::{Network, Processor};
+use crate::plan::Plan;
+use crate::processor::Declaration;
+use crate::property::Level;
+use crate::readiness::{causes, chain};
+use crate::report::{Outcome, Reason, Report, Request, Run};
+use crate::signature::{Signature, diff};
+
+/// Brings sinks and watched outports of a network up to date.
+///
+/// It keeps, for each processor, the result of its last run and what went into it: property values, revisions of the inputs,
+/// outports that were wanted, render size. An evaluation compares these with the network as it is and runs what differs, so a
+/// burst of edits costs one run and a value set back costs none. Results of processors that nothing needs at the moment are
+/// kept until the processor is removed from the network.
+pub struct Evaluator<B: Backend> {
+    memories: BTreeMap<String, Memory<B::Data>>,
+    standings: BTreeMap<String, Standing>,
+    asked: BTreeMap<String, (Level, Vec<Reason>)>,
+    revision: u64,
+}
+
+/// The last run of a processor.
+struct Memory<D> {
+    type_id: String,
+    signature: Signature,
+    data: BTreeMap<String, D>,
+    revision: u64,
+    run: Run,
+}
+
+/// How a processor came out of the last evaluation that needed it.
+enum Standing {
+    Current,
+    /// Its own causes (not those of what feeds it).
+    NotReady(Vec<String>),
+    Failed,
+}
+
+/// Why a processor cannot run now: its own causes; none when it only waits for others.
+struct Blocked(Vec<String>);
+
+impl<B: Backend> Default for Evaluator<B> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<B: Backend> Evaluator<B> {
+    /// An evaluator that has no results yet.
+    pub fn new() -> Self {
+        Self {
+            memories: BTreeMap::new(),
+            standings: BTreeMap::new(),
+            asked: BTreeMap::new(),
+            revision: 0,
+        }
+    }
+
+    /// Brings what the request names up to date. A processor that fails keeps its error and is not tried again before
+    /// something that goes into it changes; what it feeds is not ready; everything else goes on.
+    pub fn evaluate(&mut self, network: &Network, backend: &mut B, request: &Request) -> Report {
+        let start = Instant::now();
+        let plan = Plan::new(network, request);
+        self.memories.retain(|id, memory| {
+            network
+                .processor(id)
+                .is_some_and(|p| p.type_id() == memory.type_id)
+        });
+        self.asked.retain(|id, _| network.processor(id).is_some());
+        self.standings.clear();
+        let mut report = Report::default();
+        for id in &plan.order {
+            if let Some(processor) = network.processor(id) {
+                let standing = self.visit(network, backend, &plan, processor, &mut report);
+                self.standings.insert(id.clone(), standing);
+            }
+        }
+        self.conclude(network, &plan, &mut report);
+        report.elapsed = start.elapsed();
+        report
+    }
+
+    /// The data of an outport as of the last evaluation; `None` if that did not need the processor, or it is not ready or failed.
+    pub fn output(&self, processor: &str, outport: &str) -> Option<&B::Data> {
+        match self.standings.get(processor)? {
+            Standing::Current => self.memories.get(processor)?.data.get(outport),
+            _ => None,
+        }
+    }
+
+    /// The data that feeds an inport as of the last evaluation, in the order of the connections.
+    pub fn inputs<'a>(
+        &'a self,
+        network: &'a Network,
+        processor: &'a str,
+        inport: &'a str,
+    ) -> impl Iterator<Item = &'a B::Data> {
+        let into = network
+            .inputs(processor)
+            .filter(move |connection| connection.to.item == inport);
+        into.filter_map(|connection| self.output(&connection.from.processor, &connection.from.item))
+    }
+
+    /// The last run of a processor, however long ago: its times, notes, statistics and outcome.
+    pub fn last_run(&self, processor: &str) -> Option<&Run> {
+        self.memories.get(processor).map(|memory| &memory.run)
+    }
+
+    /// Makes a processor run at the next evaluation that needs it, for a reason the network does not know ("the file changed").
+    pub fn invalidate(&mut self, processor: &str, level: Level, reason: impl Into<String>) {
+        let (highest, reasons) = self.asked.entry(processor.to_owned()).or_default();
+        *highest = level.max(*highest);
+        let reason = Reason::Asked(reason.into());
+        if !reasons.contains(&reason) {
+            reasons.push(reason);
+        }
+    }
+
+    /// Tells that a processor was renamed, so that it keeps its result.
+    pub fn rename(&mut self, id: &str, new: &str) {
+        if let Some(memory) = self.memories.remove(id) {
+            self.memories.insert(new.to_owned(), memory);
+        }
+        if let Some(standing) = self.standings.remove(id) {
+            self.standings.insert(new.to_owned(), standing);
+        }
+        if let Some(asked) = self.asked.remove(id) {
+            self.asked.insert(new.to_owned(), asked);
+        }
+    }
+
+    /// Forgets all results.
+    pub fn clear(&mut self) {
+        self.memories.clear();
+        self.standings.clear();
+        self.asked.clear();
+    }
+
+    /// Runs one processor if it must and can.
+    fn visit(
+        &mut self,
+        network: &Network,
+        backend: &mut B,
+        plan: &Plan,
+        processor: &Processor,
+        report: &mut Report,
+    ) -> Standing {
+        let id = processor.id();
+        let inputs = match self.gather(network, backend, processor) {
+            Ok(inputs) => inputs,
+            Err(Blocked(causes)) => return Standing::NotReady(causes),
+        };
+        let (Some(processor_type), Some(size)) = (processor.processor_type(), plan.size.get(id))
+        else {
+            return Standing::NotReady(Vec::new());
+        };
+        let (decls, properties) = processor.resolve();
+        let sources = inputs.iter().map(|(inport, inputs)| {
+            (
+                inport.clone(),
+                inputs
+                    .iter()
+                    .map(|input| (input.from.clone(), input.revision))
+                    .collect(),
+            )
+        });
+        let signature = Signature {
+            properties,
+            inputs: sources.collect(),
+            wanted: plan.wanted.get(id).cloned().unwrap_or_default(),
+            size: processor_type
+                .declaration()
+                .uses_render_size
+                .then_some(*size),
+        };
+        let mut reasons = match self.memories.get(id) {
+            Some(memory) => diff(id, &memory.signature, &signature, &decls),
+            None => vec![(Level::Ports, Reason::FirstRun)],
+        };
+        if let Some((level, asked)) = self.asked.remove(id) {
+            reasons.extend(asked.into_iter().map(|reason| (level, reason)));
+        }
+        if let Some(level) = reasons.iter().map(|(level, _)| *level).max() {
+            let reasons: Vec<Reason> = reasons.into_iter().map(|(_, reason)| reason).collect();
+            let job = Job {
+                id,
+                processor_type,
+                properties: &signature.properties,
+                inputs: &inputs,
+                wanted: &signature.wanted,
+                size: *size,
+                level,
+                reasons: &reasons,
+            };
+            let (run, data) = run(backend, &job);
+            report.runs.push(run.clone());
+            self.revision += 1;
+            let memory = Memory {
+                type_id: processor.type_id().to_owned(),
+                signature,
+                data,
+                revision: self.revision,
+                run,
+            };
+            self.memories.insert(id.to_owned(), memory);
+        }
+        match self.memories.get(id).map(|memory| &memory.run.outcome) {
+            Some(Outcome::Done) => Standing::Current,
+            _ => Standing::Failed,
+        }
+    }
+
+    /// The data at every connected inport, or why it is not all there.
+    fn gather(
+        &self,
+        network: &Network,
+        backend: &B,
+        processor: &Processor,
+    ) -> Result<BTreeMap<String, Vec<Input<B::Data>>>, Blocked> {
+        let id = processor.id();
+        let mut blocked = Blocked(causes(network, processor));
+        let mut complete = blocked.0.is_empty();
+        let mut inputs: BTreeMap<String, Vec<Input<B::Data>>> = BTreeMap::new();
+        for connection in network.inputs(id) {
+            let Address {
+                processor: source,
+                item,
+            } = &connection.from;
+            let revision = self.memories.get(source).map(|memory| memory.revision);
+            let (Some(data), Some(revision)) = (self.output(source, item), revision) else {
+                complete = false;
+                continue;
+            };
+            let inport = &connection.to.item;
+            let decl = processor
+                .declaration()
+                .and_then(|declaration| declaration.inport(inport));
+            let facts = backend.facts(data);
+            for condition in decl
+                .iter()
+                .flat_map(|decl| &decl.conditions)
+                .filter(|condition| !(condition.holds)(&facts))
+            {
+                complete = false;
+                blocked.0.push(format!(
+                    "{id}: input `{inport}` needs {}",
+                    condition.message
+                ));
+            }
+            let input = Input {
+                data: data.clone(),
+                from: connection.from.clone(),
+                revision,
+            };
+            inputs.entry(inport.clone()).or_default().push(input);
+        }
+        if complete { Ok(inputs) } else { Err(blocked) }
+    }
+
+    /// Fills in what is not ready, with chains down to the causes, and what failed.
+    fn conclude(&self, network: &Network, plan: &Plan, report: &mut Report) {
+        let causes = |id: &str| match self.standings.get(id) {
+            Some(Standing::NotReady(causes)) => causes.clone(),
+            Some(Standing::Failed) => self
+                .error(id)
+                .map(|error| format!("{id} failed: {error}"))
+                .into_iter()
+                .collect(),
+            _ => Vec::new(),
+        };
+        for id in &plan.order {
+            match self.standings.get(id) {
+                Some(Standing::NotReady(_)) => {
+                    report
+                        .not_ready
+                        .insert(id.clone(), chain(network, id, &causes));
+                }
+                Some(Standing::Failed) => report
+                    .failed
+                    .extend(self.error(id).map(|error| (id.clone(), error.clone()))),
+                _ => {}
+            }
+        }
+    }
+
+    fn error(&self, id: &str) -> Option<&ProcessError> {
+        match &self.memories.get(id)?.run.outcome {
+            Outcome::Failed(error) => Some(error),
+            Outcome::Done => None,
+        }
+    }
+}
+
+/// Runs a job, takes its time and checks what comes out.
+fn run<B: Backend>(backend: &mut B, job: &Job<'_, B::Data>) -> (Run, BTreeMap<String, B::Data>) {
+    let start = Instant::now();
+    let result = backend.process(job);
+    let cpu = start.elapsed();
+    let checked = result.and_then(|outputs| {
+        check_outputs(
+            backend,
+            job.processor_type.declaration(),
+            job.wanted,
+            &outputs,
+        )?;
+        Ok(outputs)
+    });
+    let (outcome, outputs) = match checked {
+        Ok(outputs) => (Outcome::Done, outputs),
+        Err(error) => (Outcome::Failed(error), Outputs::new()),
+    };
+    let Outputs {
+        data,
+        gpu_time,
+        notes,
+        statistics,
+    } = outputs;
+    let (processor, reasons) = (job.id.to_owned(), job.reasons.to_vec());
+    (
+        Run {
+            processor,
+            reasons,
+            level: job.level,
+            cpu,
+            gpu: gpu_time,
+            outcome,
+            notes,
+            statistics,
+        },
+        data,
+    )
+}
+
+/// Everything wanted must be there, and nothing that was not declared or is of another type.
+fn check_outputs<B: Backend>(
+    backend: &B,
+    declaration: &Declaration,
+    wanted: &BTreeSet<String>,
+    outputs: &Outputs<B::Data>,
+) -> Result<(), ProcessError> {
+    let missing: Vec<&String> = wanted
+        .iter()
+        .filter(|outport| !outputs.data.contains_key(*outport))
+        .collect();
+    if !missing.is_empty() {
+        return Err(ProcessError::new(format!(
+            "it ran but gave nothing on {}",
+            quoted(&missing, ", ")
+        )));
+    }
+    for (outport, data) in &outputs.data {
+        let found = backend.facts(data).port_type();
+        match declaration.outport(outport) {
+            Some(decl) if decl.port_type == found => {}
+            Some(decl) => {
+                let expected = decl.port_type;
+                return Err(ProcessError::new(format!(
+                    "it gave {found} on `{outport}`, which is declared as {expected}"
+                )));
+            }
+            None => {
+                return Err(ProcessError::new(format!(
+                    "it gave data on `{outport}`, which it does not declare"
+                )));
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,147 @@
+//! Writing a network file.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use serde_json::{Map, Value as Json};
+use thiserror::Error;
+
+use super::VERSION;
+use super::layout::{Ordered, Piece, lay_out};
+use super::paths::relate;
+use crate::network::{Network, Processor, Setting};
+use crate::property::{PropertyDecl, PropertyKind};
+use crate::value::Value;
+
+/// A network file that could not be written; the file that was there before is untouched.
+#[derive(Debug, Error)]
+#[error("{}: the network cannot be saved here: {source}. Check that the folder exists and may be written to.", file.display())]
+pub struct SaveError {
+    /// The file.
+    pub file: PathBuf,
+    /// Why.
+    pub source: io::Error,
+}
+
+impl Network {
+    /// Writes the network to a file, all or nothing: a reader sees the old file or the new one, never a part.
+    ///
+    /// # Errors
+    /// The folder or file cannot be written.
+    pub fn save(&self, file: &Path) -> Result<(), SaveError> {
+        let fail = |source| SaveError {
+            file: file.to_owned(),
+            source,
+        };
+        // Through a symbolic link, the file behind it is replaced and the link stays.
+        let target = fs::canonicalize(file)
+            .or_else(|_| std::path::absolute(file))
+            .map_err(fail)?;
+        let folder = target
+            .parent()
+            .ok_or_else(|| fail(io::Error::from(io::ErrorKind::IsADirectory)))?;
+        let text = self.to_text(Some(folder));
+        write_whole(&target, folder, text.as_bytes()).map_err(fail)
+    }
+
+    /// The text of the network's file. Paths of files are relative to `folder` if they can be.
+    pub fn to_text(&self, folder: Option<&Path>) -> String {
+        let mut document = Ordered::default();
+        document.push_json("rayloom", VERSION);
+        for (key, text) in [("name", &self.name), ("description", &self.description)] {
+            if !text.is_empty() {
+                document.push_json(key, text.as_str());
+            }
+        }
+        let processors = self
+            .processors
+            .iter()
+            .map(|processor| Piece::Object(write_processor(processor, folder)));
+        document.push("processors", Piece::List(processors.collect()));
+        let connections = self
+            .connections
+            .iter()
+            .map(|connection| Piece::Plain(connection.to_string().into()));
+        document.push("connections", Piece::List(connections.collect()));
+        if !self.links.is_empty() {
+            let links = self
+                .links
+                .iter()
+                .map(|link| Piece::Plain(vec![link.a.to_string(), link.b.to_string()].into()));
+            document.push("links", Piece::List(links.collect()));
+        }
+        if !self.visualization.is_null() {
+            document.push_json("visualization", self.visualization.clone());
+        }
+        lay_out(document)
+    }
+}
+
+fn write_processor(processor: &Processor, folder: Option<&Path>) -> Ordered {
+    let mut fields = Ordered::default();
+    fields.push_json("id", processor.id.as_str());
+    fields.push_json("type", processor.type_id.as_str());
+    if let Some(label) = &processor.label {
+        fields.push_json("label", label.as_str());
+    }
+    let properties = write_properties(processor, folder);
+    if !properties.is_empty() {
+        fields.push_json("properties", properties);
+    }
+    if processor.position != [0.0; 2] {
+        fields.push_json("position", processor.position.to_vec());
+    }
+    let mut extra: Vec<_> = processor.extra.iter().collect();
+    extra.sort_by_key(|(name, _)| *name);
+    for (name, json) in extra {
+        fields.push_json(name, json.clone());
+    }
+    fields
+}
+
+/// What was set and differs from the default; and what is not a property at the moment, as it is.
+fn write_properties(processor: &Processor, folder: Option<&Path>) -> Map<String, Json> {
+    let (decls, properties) = processor.resolve();
+    let decls: BTreeMap<&str, &PropertyDecl> =
+        decls.iter().map(|decl| (decl.id.as_str(), decl)).collect();
+    let mut out = Map::new();
+    for (id, setting) in &processor.settings {
+        let value = match (decls.get(id.as_str()), properties.get(id)) {
+            (Some(decl), Some(value)) if *value == decl.default => continue,
+            (Some(decl), Some(Value::Text(path)))
+                if matches!(decl.kind, PropertyKind::File { .. }) =>
+            {
+                relate(path, folder).into()
+            }
+            (Some(_), Some(value)) => value.to_json(),
+            _ => match setting {
+                Setting::Value(value) => value.to_json(),
+                Setting::Json(json) => json.clone(),
+            },
+        };
+        out.insert(id.clone(), value);
+    }
+    out
+}
+
+/// Writes beside the target, then renames over it.
+fn write_whole(target: &Path, folder: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".").suffix(".saving");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        // A new file gets what the user's umask leaves, as with any other program.
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    let mut file = builder.tempfile_in(folder)?;
+    if let Ok(metadata) = fs::metadata(target) {
+        file.as_file().set_permissions(metadata.permissions())?;
+    }
+    file.write_all(bytes)?;
+    file.as_file().sync_all()?;
+    file.persist(target).map_err(|error| error.error)?;
+    Ok(())
+}

@@ -1,0 +1,196 @@
+//! One run of one processor, as the evaluator asks a backend for it.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::error::Error;
+use std::fmt;
+use std::sync::Arc;
+use std::time::Duration;
+
+use serde_json::Value as Json;
+
+use crate::names::Address;
+use crate::port::Facts;
+use crate::processor::ProcessorType;
+use crate::properties::Properties;
+use crate::property::Level;
+use crate::report::Reason;
+
+/// Runs processors.
+pub trait Backend {
+    /// What flows through connections; cloning must be cheap (a handle).
+    type Data: Clone;
+
+    /// What conditions and hints may know about the data.
+    fn facts(&self, data: &Self::Data) -> Facts;
+
+    /// Runs one processor.
+    ///
+    /// # Errors
+    /// Why it failed; the error is shown on the processor and the rest of the network goes on.
+    fn process(&mut self, job: &Job<'_, Self::Data>) -> Result<Outputs<Self::Data>, ProcessError>;
+}
+
+/// Data at an inport.
+#[derive(Clone, Debug)]
+pub struct Input<D> {
+    /// The data.
+    pub data: D,
+    /// The outport it comes from.
+    pub from: Address,
+    /// Changes whenever the data was computed anew; never repeats within an evaluator.
+    pub revision: u64,
+}
+
+/// Everything a processor needs for one run.
+pub struct Job<'a, D> {
+    /// Id of the processor, unique in its network.
+    pub id: &'a str,
+    /// Its type.
+    pub processor_type: &'a Arc<dyn ProcessorType>,
+    /// All properties, defaults filled in, parameters of chosen snippets included.
+    pub properties: &'a Properties,
+    /// Data by inport, in the order of the connections; inports without a connection are absent.
+    pub inputs: &'a BTreeMap<String, Vec<Input<D>>>,
+    /// Outports that something consumes; the others need not be computed.
+    pub wanted: &'a BTreeSet<String>,
+    /// Render size, width and height in pixels.
+    pub size: [u32; 2],
+    /// How much is stale at most.
+    pub level: Level,
+    /// Why it runs.
+    pub reasons: &'a [Reason],
+}
+
+impl<D> Job<'_, D> {
+    /// The (first) data at an inport; `None` without a connection.
+    pub fn input(&self, inport: &str) -> Option<&D> {
+        self.inputs.get(inport)?.first().map(|input| &input.data)
+    }
+
+    /// All data at an inport, in the order of the connections.
+    pub fn inputs(&self, inport: &str) -> impl Iterator<Item = &D> {
+        self.inputs
+            .get(inport)
+            .into_iter()
+            .flatten()
+            .map(|input| &input.data)
+    }
+
+    /// Whether something consumes this outport.
+    pub fn wants(&self, outport: &str) -> bool {
+        self.wanted.contains(outport)
+    }
+}
+
+/// What a run gives.
+#[derive(Clone, Debug)]
+pub struct Outputs<D> {
+    /// Data by outport; at least the wanted ones.
+    pub data: BTreeMap<String, D>,
+    /// Time on the GPU, where it can be measured.
+    pub gpu_time: Option<Duration>,
+    /// Things the user should know ("the volume was reduced to 8 bits").
+    pub notes: Vec<String>,
+    /// Numbers for tests and tools ("samples").
+    pub statistics: serde_json::Map<String, Json>,
+}
+
+impl<D> Default for Outputs<D> {
+    fn default() -> Self {
+        Self {
+            data: BTreeMap::new(),
+            gpu_time: None,
+            notes: Vec::new(),
+            statistics: serde_json::Map::new(),
+        }
+    }
+}
+
+impl<D> Outputs<D> {
+    /// No data.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds the data of an outport.
+    #[must_use]
+    pub fn with(mut self, outport: impl Into<String>, data: D) -> Self {
+        self.data.insert(outport.into(), data);
+        self
+    }
+}
+
+/// A place in a source text that an error is about.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mark {
+    /// The source: a snippet or file.
+    pub source: String,
+    /// Line, from 1.
+    pub line: u32,
+    /// Column, from 1.
+    pub column: u32,
+    /// What is wrong there.
+    pub message: String,
+}
+
+impl fmt::Display for Mark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{}:{}:{}: {}",
+            self.source, self.line, self.column, self.message
+        )
+    }
+}
+
+/// Why a run failed. `?` converts any error into it, with its sources; like every such catch-all it is no `Error` itself.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProcessError {
+    /// What was wrong and what to do.
+    pub message: String,
+    /// Where in shader or other source text, if it is about one.
+    pub marks: Vec<Mark>,
+}
+
+impl ProcessError {
+    /// An error with a message.
+    pub fn new(message: impl Into<String>) -> Self {
+        Self {
+            message: message.into(),
+            marks: Vec::new(),
+        }
+    }
+
+    /// An error about places in source text.
+    pub fn with_marks(message: impl Into<String>, marks: Vec<Mark>) -> Self {
+        Self {
+            message: message.into(),
+            marks,
+        }
+    }
+}
+
+impl fmt::Display for ProcessError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)?;
+        self.marks
+            .iter()
+            .try_for_each(|mark| write!(f, "\n  {mark}"))
+    }
+}
+
+impl<E: Error> From<E> for ProcessError {
+    fn from(error: E) -> Self {
+        let mut message = error.to_string();
+        let mut source = error.source();
+        while let Some(cause) = source {
+            let text = cause.to_string();
+            // Many errors already quote their source.
+            if !message.contains(&text) {
+                message = format!("{message}: {text}");
+            }
+            source = cause.source();
+        }
+        Self::new(message)
+    }
+}
