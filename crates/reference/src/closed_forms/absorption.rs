@@ -67,7 +67,7 @@ impl LinearRamp {
         }
         let q = (0.5 * k / b.abs()).sqrt();
         let (from, to) = (a * q, (a + b * self.length) * q);
-        let scale = 0.5 * PI.sqrt() / q;
+        let scale = 0.5 * PI.sqrt() / (q * b.abs());
         if b > 0.0 {
             scale * (from * from).exp() * (erf(to) - erf(from))
         } else {

@@ -113,6 +113,10 @@ impl<'a> Renderer<'a> {
         let segment = self.bounds.clip(&ray.transformed(&self.world_to_texture))?;
         let span = segment.exit - segment.entry;
         let lattice = Lattice::new((span * self.field.dims().as_dvec3()).length(), self.scene.rate);
+        if lattice.length == 0.0 {
+            // A corner grazed so closely that the length underflows.
+            return None;
+        }
         let world_length = self.texture_to_world.transform_vector3(span).length();
         let step = world_length / lattice.length / self.scene.reference_length;
         Some(Path { ray, segment, lattice, step })
