@@ -53,12 +53,10 @@ pub enum Refusal {
     #[error("`{0}` cannot feed itself; connect two different processors.")]
     Itself(String),
     /// The inport does not accept what comes out.
-    #[error("{from} gives {found}, but {to} takes {expected}.")]
+    #[error("{} gives {found}, but {} takes {expected}.", connection.from, connection.to)]
     Type {
-        /// The outport.
-        from: Address,
-        /// The inport.
-        to: Address,
+        /// The connection.
+        connection: Box<Connection>,
         /// What comes out.
         found: PortType,
         /// What is accepted.
@@ -103,9 +101,12 @@ pub fn can_connect(network: &Network, from: &Address, to: &Address) -> Result<()
             .map(PortType::to_string)
             .collect::<Vec<_>>()
             .join(" or ");
-        return Err(Refusal::Type {
+        let connection = Box::new(Connection {
             from: from.clone(),
             to: to.clone(),
+        });
+        return Err(Refusal::Type {
+            connection,
             found: outport.port_type,
             expected,
         });

@@ -60,7 +60,7 @@ pub enum EditError {
         /// The property.
         address: Address,
         /// Why.
-        error: ValueError,
+        error: Box<ValueError>,
     },
     /// The value does not fit a property that is linked to the one that was to be set.
     #[error("{address} cannot be set: it is linked to {linked}, which refuses the value: {error}")]
@@ -70,7 +70,7 @@ pub enum EditError {
         /// The one that refuses.
         linked: Address,
         /// Why.
-        error: ValueError,
+        error: Box<ValueError>,
     },
     /// A position that is not finite.
     #[error("the position of `{0}` is not finite; give two finite numbers.")]
@@ -185,6 +185,7 @@ impl Network {
                 .declared_if_present(linked)
                 .map(|decl| decl.check(&value))
             {
+                let error = Box::new(error);
                 return Err(match *linked == address {
                     true => EditError::Value { address, error },
                     false => EditError::LinkedValue {
@@ -220,9 +221,10 @@ impl Network {
             }
             _ => json.clone(),
         };
-        let value = decl
-            .parse(&merged)
-            .map_err(|error| EditError::Value { address, error })?;
+        let value = decl.parse(&merged).map_err(|error| EditError::Value {
+            address,
+            error: Box::new(error),
+        })?;
         self.set_property(processor, property, value)
     }
 

@@ -3,12 +3,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;
 
-use crate::job::{Backend, Input, Job, Outputs, ProcessError};
+use crate::job::{Backend, Input, Inputs, Job, Outputs, ProcessError};
 use crate::names::{Address, quoted};
 use crate::network::{Network, Processor};
 use crate::plan::Plan;
 use crate::processor::Declaration;
-use crate::property::Level;
+use crate::property::{Level, PropertyDecl};
 use crate::readiness::{causes, chain};
 use crate::report::{Outcome, Reason, Report, Request, Run};
 use crate::signature::{Signature, diff};
@@ -157,64 +157,79 @@ impl<B: Backend> Evaluator<B> {
             Ok(inputs) => inputs,
             Err(Blocked(causes)) => return Standing::NotReady(causes),
         };
-        let (Some(processor_type), Some(size)) = (processor.processor_type(), plan.size.get(id))
+        let (Some(processor_type), Some(&size)) = (processor.processor_type(), plan.size.get(id))
         else {
             return Standing::NotReady(Vec::new());
         };
         let (decls, properties) = processor.resolve();
-        let sources = inputs.iter().map(|(inport, inputs)| {
-            (
-                inport.clone(),
-                inputs
-                    .iter()
-                    .map(|input| (input.from.clone(), input.revision))
-                    .collect(),
-            )
-        });
         let signature = Signature {
             properties,
-            inputs: sources.collect(),
+            inputs: sources(&inputs),
             wanted: plan.wanted.get(id).cloned().unwrap_or_default(),
             size: processor_type
                 .declaration()
                 .uses_render_size
-                .then_some(*size),
+                .then_some(size),
         };
-        let mut reasons = match self.memories.get(id) {
-            Some(memory) => diff(id, &memory.signature, &signature, &decls),
-            None => vec![(Level::Ports, Reason::FirstRun)],
-        };
-        if let Some((level, asked)) = self.asked.remove(id) {
-            reasons.extend(asked.into_iter().map(|reason| (level, reason)));
-        }
-        if let Some(level) = reasons.iter().map(|(level, _)| *level).max() {
-            let reasons: Vec<Reason> = reasons.into_iter().map(|(_, reason)| reason).collect();
+        if let Some((level, reasons)) = self.stale(id, &signature, &decls) {
             let job = Job {
                 id,
                 processor_type,
                 properties: &signature.properties,
                 inputs: &inputs,
                 wanted: &signature.wanted,
-                size: *size,
+                size,
                 level,
                 reasons: &reasons,
             };
             let (run, data) = run(backend, &job);
             report.runs.push(run.clone());
-            self.revision += 1;
-            let memory = Memory {
-                type_id: processor.type_id().to_owned(),
-                signature,
-                data,
-                revision: self.revision,
-                run,
-            };
-            self.memories.insert(id.to_owned(), memory);
+            self.remember(processor, signature, run, data);
         }
-        match self.memories.get(id).map(|memory| &memory.run.outcome) {
-            Some(Outcome::Done) => Standing::Current,
-            _ => Standing::Failed,
+        match self.error(id) {
+            Some(_) => Standing::Failed,
+            None => Standing::Current,
         }
+    }
+
+    /// Why a processor must run and what is stale at most; `None` if its result is still right.
+    fn stale(
+        &mut self,
+        id: &str,
+        signature: &Signature,
+        decls: &[PropertyDecl],
+    ) -> Option<(Level, Vec<Reason>)> {
+        let mut reasons = match self.memories.get(id) {
+            Some(memory) => diff(id, &memory.signature, signature, decls),
+            None => vec![(Level::Ports, Reason::FirstRun)],
+        };
+        if let Some((level, asked)) = self.asked.remove(id) {
+            reasons.extend(asked.into_iter().map(|reason| (level, reason)));
+        }
+        let level = reasons.iter().map(|(level, _)| *level).max()?;
+        Some((
+            level,
+            reasons.into_iter().map(|(_, reason)| reason).collect(),
+        ))
+    }
+
+    fn remember(
+        &mut self,
+        processor: &Processor,
+        signature: Signature,
+        run: Run,
+        data: BTreeMap<String, B::Data>,
+    ) {
+        self.revision += 1;
+        let (type_id, revision) = (processor.type_id().to_owned(), self.revision);
+        let memory = Memory {
+            type_id,
+            signature,
+            data,
+            revision,
+            run,
+        };
+        self.memories.insert(processor.id().to_owned(), memory);
     }
 
     /// The data at every connected inport, or why it is not all there.
@@ -223,11 +238,11 @@ impl<B: Backend> Evaluator<B> {
         network: &Network,
         backend: &B,
         processor: &Processor,
-    ) -> Result<BTreeMap<String, Vec<Input<B::Data>>>, Blocked> {
+    ) -> Result<Inputs<B::Data>, Blocked> {
         let id = processor.id();
         let mut blocked = Blocked(causes(network, processor));
         let mut complete = blocked.0.is_empty();
-        let mut inputs: BTreeMap<String, Vec<Input<B::Data>>> = BTreeMap::new();
+        let mut inputs = Inputs::new();
         for connection in network.inputs(id) {
             let Address {
                 processor: source,
@@ -296,6 +311,15 @@ impl<B: Backend> Evaluator<B> {
             Outcome::Done => None,
         }
     }
+}
+
+/// Where the data at each inport comes from, with revisions.
+fn sources<D>(inputs: &Inputs<D>) -> BTreeMap<String, Vec<(Address, u64)>> {
+    let source = |input: &Input<D>| (input.from.clone(), input.revision);
+    inputs
+        .iter()
+        .map(|(inport, inputs)| (inport.clone(), inputs.iter().map(source).collect()))
+        .collect()
 }
 
 /// Runs a job, takes its time and checks what comes out.

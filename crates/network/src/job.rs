@@ -41,6 +41,9 @@ pub struct Input<D> {
     pub revision: u64,
 }
 
+/// Data by inport, in the order of the connections; inports without a connection are absent.
+pub type Inputs<D> = BTreeMap<String, Vec<Input<D>>>;
+
 /// Everything a processor needs for one run.
 pub struct Job<'a, D> {
     /// Id of the processor, unique in its network.
@@ -50,7 +53,7 @@ pub struct Job<'a, D> {
     /// All properties, defaults filled in, parameters of chosen snippets included.
     pub properties: &'a Properties,
     /// Data by inport, in the order of the connections; inports without a connection are absent.
-    pub inputs: &'a BTreeMap<String, Vec<Input<D>>>,
+    pub inputs: &'a Inputs<D>,
     /// Outports that something consumes; the others need not be computed.
     pub wanted: &'a BTreeSet<String>,
     /// Render size, width and height in pixels.

@@ -33,7 +33,7 @@ pub use connect::{Refusal, can_connect};
 pub use edit::EditError;
 pub use evaluate::Evaluator;
 pub use file::{LoadError, Loaded, SaveError, VERSION, Warning};
-pub use job::{Backend, Input, Job, Mark, Outputs, ProcessError};
+pub use job::{Backend, Input, Inputs, Job, Mark, Outputs, ProcessError};
 pub use json::ValueError;
 pub use light::{Light, LightError, LightSpace};
 pub use link::{Link, LinkRefusal};

@@ -24,10 +24,10 @@ pub struct Link {
 impl Link {
     /// The property at the other end.
     pub fn other(&self, end: &Address) -> Option<&Address> {
-        match () {
-            () if self.a == *end => Some(&self.b),
-            () if self.b == *end => Some(&self.a),
-            () => None,
+        if self.a == *end {
+            Some(&self.b)
+        } else {
+            (self.b == *end).then_some(&self.a)
         }
     }
 
@@ -52,18 +52,14 @@ pub enum LinkRefusal {
     #[error("{0} and {1} are already linked.")]
     Already(Address, Address),
     /// The properties are not of the same kind, length, unit or choices.
-    #[error(
-        "{a} is {found_a}, but {b} is {found_b}; only properties of the same kind can be linked."
-    )]
+    #[error("{} is {kind_a}, but {} is {kind_b}; only properties of the same kind can be linked.", link.a, link.b)]
     Kind {
-        /// One property.
-        a: Address,
-        /// What it is.
-        found_a: String,
-        /// The other.
-        b: Address,
-        /// What that is.
-        found_b: String,
+        /// The properties.
+        link: Box<Link>,
+        /// What the first is.
+        kind_a: String,
+        /// What the second is.
+        kind_b: String,
     },
     /// The present value does not fit the other side.
     #[error("the value of {from} does not fit {to}: {error} Change it first.")]
@@ -73,7 +69,7 @@ pub enum LinkRefusal {
         /// The property that refuses it.
         to: Address,
         /// Why.
-        error: ValueError,
+        error: Box<ValueError>,
     },
 }
 
@@ -86,13 +82,16 @@ impl Network {
     pub fn can_link(&self, a: &Address, b: &Address) -> Result<(), EditError> {
         let (decl_a, decl_b) = (self.declared(a)?, self.declared(b)?);
         self.link_shape(a, b)?;
-        let (found_a, found_b) = (nature(&decl_a), nature(&decl_b));
-        if found_a != found_b {
-            return Err(LinkRefusal::Kind {
+        let (kind_a, kind_b) = (nature(&decl_a), nature(&decl_b));
+        if kind_a != kind_b {
+            let link = Box::new(Link {
                 a: a.clone(),
-                found_a,
                 b: b.clone(),
-                found_b,
+            });
+            return Err(LinkRefusal::Kind {
+                link,
+                kind_a,
+                kind_b,
             }
             .into());
         }
@@ -101,12 +100,8 @@ impl Network {
             if let Some(decl) = self.declared_if_present(&to)
                 && let Err(error) = decl.check(&value)
             {
-                return Err(LinkRefusal::Value {
-                    from: a.clone(),
-                    to,
-                    error,
-                }
-                .into());
+                let (from, error) = (a.clone(), Box::new(error));
+                return Err(LinkRefusal::Value { from, to, error }.into());
             }
         }
         Ok(())
