@@ -139,19 +139,18 @@ impl Comparison {
 
 /// Absolute errors of the four channels and of the logarithm of the transmittance.
 fn pixel_errors(found: [f64; 4], expected: [f64; 4]) -> [f64; 5] {
-    let log_transmittance = |a: f64| (1.0 - a).max(TRANSMITTANCE_FLOOR).ln();
-    let optical_depth =
-        if found[3].is_nan() || expected[3].is_nan() { f64::INFINITY } else { 0.0 };
     let error = |found: f64, expected: f64| {
         let e = (found - expected).abs();
         if e.is_nan() { f64::INFINITY } else { e }
     };
+    // Not `max`, which would turn what is not a number into the floor.
+    let log_transmittance = |a: f64| if 1.0 - a < TRANSMITTANCE_FLOOR { TRANSMITTANCE_FLOOR.ln() } else { (-a).ln_1p() };
     [
         error(found[0], expected[0]),
         error(found[1], expected[1]),
         error(found[2], expected[2]),
         error(found[3], expected[3]),
-        optical_depth + error(log_transmittance(found[3]), log_transmittance(expected[3])),
+        error(log_transmittance(found[3]), log_transmittance(expected[3])),
     ]
 }
 
