@@ -1,0 +1,139 @@
+//! The shader sources: built-in files, a user's folder, and texts edited for one processor.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::declaration::{Declaration, parse_declaration, stem};
+use crate::diagnostic::Diagnostic;
+use crate::slot::Slot;
+
+/// The files under `shaders/`, embedded at build time: (path with forward slashes, text).
+const BUILT_IN: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
+
+/// Where a source came from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SourceKind {
+    /// Shipped with the program.
+    BuiltIn,
+    /// Read from the user's snippet folder.
+    User,
+    /// Edited for one processor and stored in its network.
+    Edited,
+}
+
+/// One shader file.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// Path inside the library, such as `gradient/central.wgsl` or `user/mine.wgsl`.
+    pub path: Arc<str>,
+    /// The text.
+    pub text: Arc<str>,
+    /// Where it came from.
+    pub kind: SourceKind,
+}
+
+/// The shader files that an assembly can draw from. Cloning is cheap: texts are shared.
+#[derive(Clone, Debug)]
+pub struct Library {
+    sources: BTreeMap<Arc<str>, Source>,
+    snippets: BTreeMap<Arc<str>, Arc<Declaration>>,
+}
+
+impl Library {
+    /// The built-in files.
+    ///
+    /// # Errors
+    /// A built-in snippet whose declaration is malformed; a test makes sure that there is none.
+    pub fn built_in() -> Result<Self, Diagnostic> {
+        let mut library = Self { sources: BTreeMap::new(), snippets: BTreeMap::new() };
+        for (path, text) in BUILT_IN {
+            library.insert(path, text, SourceKind::BuiltIn)?;
+        }
+        Ok(library)
+    }
+
+    /// Adds every `.wgsl` file of a folder (not of its sub-folders) as `user/NAME.wgsl`.
+    /// Files that cannot be read or declared are left out; their messages are returned.
+    pub fn add_folder(&mut self, folder: &Path) -> Vec<Diagnostic> {
+        let name = folder.display().to_string();
+        let entries = match std::fs::read_dir(folder) {
+            Ok(entries) => entries,
+            Err(error) => return vec![Diagnostic::new(&name, 0, 0, format!("the snippet folder cannot be read: {error}"))],
+        };
+        let mut paths: Vec<_> = entries.flatten().map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|e| e == "wgsl")).collect();
+        paths.sort();
+        let mut problems = Vec::new();
+        for path in paths {
+            let file = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+            let added = std::fs::read_to_string(&path)
+                .map_err(|error| Diagnostic::new(&path.display().to_string(), 0, 0, format!("the snippet cannot be read: {error}")))
+                .and_then(|text| self.add_user(&file, &text));
+            problems.extend(added.err());
+        }
+        problems
+    }
+
+    /// Adds one user snippet as `user/FILE`; its id is the file name without extension.
+    ///
+    /// # Errors
+    /// A malformed declaration, or an id that another snippet of the slot has already.
+    pub fn add_user(&mut self, file: &str, text: &str) -> Result<(), Diagnostic> {
+        let path = format!("user/{file}");
+        let declaration = parse_declaration(&path, text)?;
+        if let Some(known) = self.path(declaration.slot, stem(file)).filter(|known| **known != *path) {
+            let message = format!("`{known}` is already the {} snippet `{}`; give this file another name", declaration.slot, stem(file));
+            return Err(Diagnostic::new(&path, 1, 0, message));
+        }
+        self.insert(&path, text, SourceKind::User)
+    }
+
+    /// Adds a text edited for one processor and returns the path under which an assembly finds it.
+    ///
+    /// # Errors
+    /// A malformed declaration, or one of another slot than the text is to fill.
+    pub fn add_edited(&mut self, place: &str, slot: Slot, text: &str) -> Result<Arc<str>, Diagnostic> {
+        let path: Arc<str> = format!("edited/{place}.wgsl").into();
+        let declaration = parse_declaration(&path, text)?;
+        if declaration.slot != slot {
+            let message = format!("the text declares slot `{}`, but it is used as `{slot}`", declaration.slot);
+            return Err(Diagnostic::new(&path, 1, 0, message).with_excerpt(text));
+        }
+        self.insert(&path, text, SourceKind::Edited)?;
+        Ok(path)
+    }
+
+    fn insert(&mut self, path: &str, text: &str, kind: SourceKind) -> Result<(), Diagnostic> {
+        let path: Arc<str> = path.into();
+        if text.lines().next().is_some_and(|line| line.starts_with("//! slot:")) || kind != SourceKind::BuiltIn {
+            self.snippets.insert(path.clone(), Arc::new(parse_declaration(&path, text)?));
+        }
+        self.sources.insert(path.clone(), Source { path, text: text.into(), kind });
+        Ok(())
+    }
+
+    /// The file with this path.
+    pub fn source(&self, path: &str) -> Option<&Source> {
+        self.sources.get(path)
+    }
+
+    /// The declaration of the snippet with this path.
+    pub fn declaration(&self, path: &str) -> Option<&Arc<Declaration>> {
+        self.snippets.get(path)
+    }
+
+    /// Path of the snippet of a slot by id (the file name without extension).
+    pub fn path(&self, slot: Slot, id: &str) -> Option<Arc<str>> {
+        self.snippets(slot).find(|(path, _)| stem(path) == id).map(|(path, _)| path.clone())
+    }
+
+    /// Built-in and user snippets of a slot with their paths, sorted; edited texts are not offered for choice.
+    pub fn snippets(&self, slot: Slot) -> impl Iterator<Item = (&Arc<str>, &Arc<Declaration>)> {
+        self.snippets.iter().filter(move |(path, declaration)| declaration.slot == slot && !path.starts_with("edited/"))
+    }
+
+    /// Id of a snippet: its file name without folder and extension.
+    pub fn id(path: &str) -> &str {
+        stem(path)
+    }
+}

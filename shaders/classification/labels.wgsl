@@ -1,0 +1,14 @@
+//! slot: classification
+//! label: Labels
+//! help: A transfer function for each label; the label is that of the nearest voxel, the value is interpolated.
+//! reads: labels
+
+#include "classification/table.wgsl"
+
+fn classify(s: Sample) -> vec4f {
+    let size = vec3i(textureDimensions(label_volume));
+    let voxel = clamp(vec3i(floor(s.position * vec3f(size))), vec3i(0), size - 1);
+    let label = i32(round(frame.label_minimum + frame.label_span * textureLoad(label_volume, voxel, 0).x));
+    let rows = i32(textureDimensions(label_table).y);
+    return table_lookup(label_table, clamp(label, 0, rows - 1), s.value);
+}

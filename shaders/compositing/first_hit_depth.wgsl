@@ -1,0 +1,32 @@
+//! slot: compositing
+//! label: First-hit depth
+//! help: Distance of the first visible sample along the viewing direction, in world units, in all three colours.
+//! reads: medium
+//! terminates: hit
+//! empty: transparent
+//! forbids: classification reads previous -- a hit is a point, not a segment
+
+struct State {
+    along: f32,
+}
+
+fn begin() -> State {
+    return State(-1.0);
+}
+
+fn add(state: ptr<function, State>, ray: Ray, s: Sample) {
+    if (*state).along < 0.0 && s.medium.w > 0.0 {
+        *state = State(s.along);
+    }
+}
+
+fn done(state: State) -> bool {
+    return state.along >= 0.0;
+}
+
+fn finish(state: State, ray: Ray) -> Result {
+    if state.along < 0.0 {
+        return Result(vec4f(0.0), -1.0);
+    }
+    return Result(vec4f(vec3f(depth_along(ray, state.along)), 1.0), state.along);
+}

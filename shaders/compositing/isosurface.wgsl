@@ -1,0 +1,42 @@
+//! slot: compositing
+//! label: Isosurface
+//! help: The first surface on which the value is the isovalue, opaque. It is refined, shaded and coloured once, behind the loop. Depth: the surface.
+//! reads: previous, refinement, surface
+//! terminates: hit
+//! empty: no_crossing isovalue
+//! forbids: classification reads previous -- a surface has no thickness to integrate over
+//! param isovalue: f32 = 0.5 [-1e30, 1e30] unit data -- value of the surface
+//! param color: color = 0.9, 0.85, 0.75 -- colour of the surface
+
+struct State {
+    found: bool,
+    a: f32,
+    b: f32,
+    fa: f32,
+    fb: f32,
+}
+
+fn begin() -> State {
+    return State(false, 0.0, 0.0, 0.0, 0.0);
+}
+
+fn add(state: ptr<function, State>, ray: Ray, s: Sample) {
+    let fa = s.previous - params.isovalue;
+    let fb = s.value - params.isovalue;
+    // A value equal to the isovalue is inside: plateaus give one surface.
+    if !(*state).found && (fa >= 0.0) != (fb >= 0.0) {
+        *state = State(true, s.previous_along, s.along, fa, fb);
+    }
+}
+
+fn done(state: State) -> bool {
+    return state.found;
+}
+
+fn finish(state: State, ray: Ray) -> Result {
+    if !state.found {
+        return Result(vec4f(0.0), -1.0);
+    }
+    let along = refine(ray, state.a, state.b, state.fa, state.fb, params.isovalue);
+    return Result(surface_at(ray, along, params.color), along);
+}

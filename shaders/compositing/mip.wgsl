@@ -1,0 +1,28 @@
+//! slot: compositing
+//! label: Maximum intensity projection
+//! help: The largest value on the ray, classified over one reference length. Depth: where it is.
+//! reads: medium_at
+//! forbids: classification reads previous -- a maximum is a point, not a segment
+
+struct State {
+    value: f32,
+    along: f32,
+}
+
+fn begin() -> State {
+    return State(-3.0e38, -1.0);
+}
+
+fn add(state: ptr<function, State>, ray: Ray, s: Sample) {
+    if s.value > (*state).value {
+        *state = State(s.value, s.along);
+    }
+}
+
+fn done(state: State) -> bool {
+    return false;
+}
+
+fn finish(state: State, ray: Ray) -> Result {
+    return Result(absorb(medium_at(ray, state.along), 1.0), state.along);
+}

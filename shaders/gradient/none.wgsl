@@ -1,0 +1,4 @@
+//! slot: gradient
+//! label: None
+//! help: No gradient; nothing may read one.
+//! absent

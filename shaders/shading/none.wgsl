@@ -1,0 +1,4 @@
+//! slot: shading
+//! label: None
+//! help: The classified colour as it is.
+//! absent

@@ -1,0 +1,4 @@
+//! slot: skipping
+//! label: None
+//! help: Every sample is taken: best for dense scenes.
+//! absent

@@ -1,0 +1,15 @@
+//! slot: skipping
+//! label: Brick occupancy
+//! help: Leaps to the end of a brick in which nothing is visible. The picture stays the same to the last bit.
+
+#include "skipping/leap.wgsl"
+
+fn skip_empty(ray: Ray, index: u32) -> u32 {
+    let base = leap_base(index);
+    let p = position_along(ray, segment(ray, base).x);
+    let brick = brick_at(p);
+    if textureLoad(skip_map, brick, 0).x == 0u {
+        return index;
+    }
+    return max(index, leap(ray, base, p, brick, 1u));
+}

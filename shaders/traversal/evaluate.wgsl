@@ -1,0 +1,91 @@
+/// The sample with this number: place and values.
+fn sample_ray(ray: Ray, index: u32) -> Sample {
+    let place = segment(ray, index);
+    var s: Sample;
+    s.along = place.x;
+    s.position = position_along(ray, place.x);
+    s.length = place.y * ray.step_length;
+    s.voxel = voxel_at(s.position);
+    s.value = selected(s.voxel);
+    return s;
+}
+#if gradient
+
+/// World-space gradient at `p`, normalised value a mean voxel spacing.
+fn world_gradient(p: vec3f, voxel: vec4f) -> vec3f {
+    return frame.gradient_to_world * gradient_at(p, voxel);
+}
+#endif
+#if shading
+
+/// Shades a medium at `p`. Where the gradient vanishes there is no surface to light, and the unlit medium shows.
+fn lit(medium: vec4f, ray: Ray, p: vec3f, voxel: vec4f) -> vec4f {
+    let gradient = world_gradient(p, voxel);
+    let magnitude = length(gradient);
+    var surface: Surface;
+    surface.normal = -gradient / max(magnitude, 1e-20);
+    if frame.two_sided > 0.5 && dot(surface.normal, ray.view) < 0.0 {
+        surface.normal = -surface.normal;
+    }
+    surface.view = ray.view;
+    surface.light = frame.light_direction;
+    surface.light_color = frame.light_color;
+    let weight = magnitude / (magnitude + frame.gradient_fade);
+    return mix(medium, shade(medium, surface), weight);
+}
+#endif
+#if medium_at
+
+/// The classified and shaded medium after `along` steps.
+fn medium_at(ray: Ray, along: f32) -> vec4f {
+    var s: Sample;
+    s.along = along;
+    s.position = position_along(ray, along);
+    s.voxel = voxel_at(s.position);
+    s.value = selected(s.voxel);
+    s.previous = s.value;
+#if classified_gradient
+    s.gradient = world_gradient(s.position, s.voxel);
+#endif
+    let medium = classify(s);
+#if shading
+    return lit(medium, ray, s.position, s.voxel);
+#else
+    return medium;
+#endif
+}
+#endif
+#if classify_value
+
+/// The medium of a bare normalised value: no place, no gradient, no shading.
+fn classify_value(value: f32) -> vec4f {
+    var s: Sample;
+    s.value = value;
+    s.previous = value;
+    s.voxel = vec4f(value);
+    return classify(s);
+}
+#endif
+#if surface
+
+/// An opaque surface of the given colour after `along` steps: shaded, premultiplied, opacity 1.
+fn surface_at(ray: Ray, along: f32, color: vec3f) -> vec4f {
+#if shading
+    let p = position_along(ray, along);
+    return lit(vec4f(color, 1.0), ray, p, voxel_at(p));
+#else
+    return vec4f(color, 1.0);
+#endif
+}
+#endif
+#if statistics
+
+/// Whether a sample counts as contributing: visible medium, or, where nothing is classified in the loop, any sample.
+fn contributes(s: Sample) -> bool {
+#if medium
+    return s.medium.w > 0.0;
+#else
+    return true;
+#endif
+}
+#endif

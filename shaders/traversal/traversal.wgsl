@@ -1,0 +1,173 @@
+//! The ray traversal: walks every ray from its entry to its exit point and combines what it finds into pixels.
+//!
+//! Coordinates. Volume coordinates run from 0 to 1 across the volume's box. Positions along a ray are counted in
+//! sample steps from the entry point. Lengths are counted in reference lengths, the unit of a transfer function's
+//! opacity. Values are normalised: 0 and 1 are the ends of the data range.
+//! Samples sit on one lattice a ray, at the middle of segments 0, 1, 2, ...; the last segment is shortened.
+//! A medium is (emission, extinction): rgb is colour times extinction, w the extinction a reference length.
+//!
+//! slot skipping:
+//! fn skip_empty(ray: Ray, index: u32) -> u32
+//!   index: number of the next sample. Result: the first sample at or after it that may contribute.
+//! slot sampling:
+//! fn sample_volume(p: vec3f) -> vec4f
+//!   p: volume coordinates. Result: the stored texel values at p, all channels.
+//! slot gradient:
+//! fn gradient_at(p: vec3f, voxel: vec4f) -> vec3f
+//!   p: volume coordinates; voxel: the sample there. Result: change of the normalised value a voxel, along the three voxel axes.
+//! slot classification:
+//! fn classify(s: Sample) -> vec4f
+//!   Result: the medium (emission, extinction) at the sample, or its mean between the previous sample and this one.
+//! slot shading:
+//! fn shade(medium: vec4f, surface: Surface) -> vec4f
+//!   medium: (emission, extinction); surface: unit vectors in world space. Result: the lit medium, extinction unchanged.
+//! slot refinement:
+//! fn refine(ray: Ray, a: f32, b: f32, fa: f32, fb: f32, isovalue: f32) -> f32
+//!   a, b: steps before and after a crossing; fa, fb: value minus isovalue there. Result: steps at the crossing.
+//! slot compositing:
+//! struct State
+//!   What one output remembers along a ray.
+//! fn begin() -> State
+//!   The state before the first sample.
+//! fn add(state: ptr<function, State>, ray: Ray, s: Sample)
+//!   Takes in the next sample.
+//! fn done(state: State) -> bool
+//!   Whether further samples can no longer matter (within the error that early termination allows).
+//! fn finish(state: State, ray: Ray) -> Result
+//!   The pixel: premultiplied colour, and where it is on the ray for the depth image.
+
+#include "traversal/types.wgsl"
+#include "traversal/bindings.wgsl"
+#parameters
+#include "traversal/ray.wgsl"
+#include "traversal/medium.wgsl"
+#snippet sampling
+#include "traversal/values.wgsl"
+#if gradient
+#snippet gradient
+#endif
+#if slot_classification
+#snippet classification
+#endif
+#if shading
+#snippet shading
+#endif
+#include "traversal/evaluate.wgsl"
+#if slot_refinement
+#snippet refinement
+#endif
+#if skipping
+#snippet skipping
+#endif
+#each output
+#snippet compositing
+#end
+
+@compute @workgroup_size(8, 8)
+fn traverse(@builtin(global_invocation_id) id: vec3u) {
+    if any(id.xy >= frame.image_size) {
+        return;
+    }
+    let ray = ray_through(id.xy);
+#each output
+    var OUT_state = OUT_begin();
+#end
+#if statistics
+    var taken = 0u;
+    var contributing = 0u;
+#endif
+#if previous
+    var previous = 0.0;
+    var previous_along = 0.0;
+    if ray.count > 0u {
+        previous = value_at(ray.entry);
+    }
+#endif
+    var index = 0u;
+    while index < ray.count {
+#if search
+        // Find the next visible sample before shading it: rays of a group shade together.
+        var s: Sample;
+        var visible = false;
+        while index < ray.count && !visible {
+#if skipping
+            index = skip_empty(ray, index);
+            if index >= ray.count {
+                break;
+            }
+#endif
+            s = sample_ray(ray, index);
+#if loop_gradient
+            s.gradient = world_gradient(s.position, s.voxel);
+#endif
+            s.medium = classify(s);
+            visible = s.medium.w > 0.0;
+            index += 1u;
+#if statistics
+            taken += 1u;
+#endif
+        }
+        if !visible {
+            break;
+        }
+        s.medium = lit(s.medium, ray, s.position, s.voxel);
+#else
+#if skipping
+        index = skip_empty(ray, index);
+        if index >= ray.count {
+            break;
+        }
+#endif
+        var s = sample_ray(ray, index);
+#if previous
+        s.previous = previous;
+        s.previous_along = previous_along;
+#endif
+#if loop_gradient
+        s.gradient = world_gradient(s.position, s.voxel);
+#endif
+#if medium
+        s.medium = classify(s);
+#if shading
+        if s.medium.w > 0.0 {
+            s.medium = lit(s.medium, ray, s.position, s.voxel);
+        }
+#endif
+#endif
+        index += 1u;
+#if previous
+        previous = s.value;
+        previous_along = s.along;
+#endif
+#if statistics
+        taken += 1u;
+#endif
+#endif
+#if statistics
+        contributing += select(0u, 1u, contributes(s));
+#endif
+#each output
+        OUT_add(&OUT_state, ray, s);
+#end
+#if stop
+        var open = false;
+#each output
+        open = open || !OUT_done(OUT_state);
+#end
+        if !open {
+            break;
+        }
+#endif
+    }
+#each output
+    var OUT_result = Result(vec4f(0.0), -1.0);
+    if ray.count > 0u {
+        OUT_result = OUT_finish(OUT_state, ray);
+    }
+    textureStore(OUT_color, id.xy, OUT_result.color);
+    textureStore(OUT_depth, id.xy, vec4f(depth_along(ray, OUT_result.along)));
+#end
+#if statistics
+    count_samples(ray, taken, contributing);
+#endif
+}
