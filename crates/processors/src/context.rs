@@ -1,0 +1,119 @@
+//! What a processor works with: the device, its caches and the processor's own memory.
+
+use std::any::{Any, TypeId};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use rayloom_gpu::wgpu::{TextureFormat, TextureUsages};
+use rayloom_gpu::{Gpu, GpuError, PipelineCache, Texture, TexturePool, Timer};
+
+use rayloom_volume::Progress;
+
+use crate::MISS;
+
+/// Told how far a slow processor is: its id, and its progress.
+pub type ProgressListener = Box<dyn FnMut(&str, Progress) + Send>;
+
+/// The device and everything that outlives one run of one processor.
+pub struct Context {
+    /// The device.
+    pub gpu: Gpu,
+    /// Render targets.
+    pub pool: TexturePool,
+    /// Compiled shaders.
+    pub pipelines: PipelineCache,
+    /// Measures GPU time; hand it to every pass.
+    pub timer: Timer,
+    /// Whom to tell about progress.
+    pub progress: Option<ProgressListener>,
+    states: HashMap<(String, TypeId), Box<dyn Any + Send>>,
+    blank_color: Arc<Texture>,
+    blank_depth: Arc<Texture>,
+}
+
+impl Context {
+    /// A context on a device, with empty caches and GPU time not measured.
+    pub fn new(gpu: Gpu) -> Result<Self, GpuError> {
+        let mut timer = Timer::new(&gpu)?;
+        timer.set_enabled(false);
+        let blank_color = one_texel(&gpu, TextureFormat::Rgba32Float, &[0.0; 4])?;
+        let blank_depth = one_texel(&gpu, TextureFormat::R32Float, &[MISS])?;
+        Ok(Self {
+            gpu,
+            pool: TexturePool::new(),
+            pipelines: PipelineCache::new(),
+            timer,
+            progress: None,
+            states: HashMap::new(),
+            blank_color,
+            blank_depth,
+        })
+    }
+
+    /// What the processor with this id remembers from its last run, as a `T` of its own; the default at first.
+    pub fn state<T: Any + Default + Send>(&mut self, id: &str) -> &mut T {
+        let slot = self
+            .states
+            .entry((id.to_owned(), TypeId::of::<T>()))
+            .or_insert_with(|| Box::new(T::default()));
+        match slot.downcast_mut() {
+            Some(state) => state,
+            None => unreachable!("states are stored under their own type"),
+        }
+    }
+
+    /// Like [`Context::state`], but takes it out, so that the context can be used beside it; the next call starts from
+    /// the default unless [`Context::put_state`] is called.
+    pub fn take_state<T: Any + Default + Send>(&mut self, id: &str) -> T {
+        let slot = self.states.remove(&(id.to_owned(), TypeId::of::<T>()));
+        slot.and_then(|state| state.downcast().ok())
+            .map_or_else(T::default, |state| *state)
+    }
+
+    /// Stores what the processor with this id remembers.
+    pub fn put_state<T: Any + Send>(&mut self, id: &str, state: T) {
+        self.states
+            .insert((id.to_owned(), TypeId::of::<T>()), Box::new(state));
+    }
+
+    /// Forgets what processors remember that do not exist any more.
+    pub fn forget_others(&mut self, exists: impl Fn(&str) -> bool) {
+        self.states.retain(|(id, _), _| exists(id));
+    }
+
+    /// A colour target from the pool: rgba32float of `size` pixels. Its contents are old, so write every pixel.
+    pub fn color_target(&mut self, label: &str, size: [u32; 2]) -> Result<Arc<Texture>, GpuError> {
+        self.pool
+            .get(&self.gpu, label, size, TextureFormat::Rgba32Float)
+    }
+
+    /// A depth target from the pool: r32float of `size` pixels. Its contents are old, so write every pixel.
+    pub fn depth_target(&mut self, label: &str, size: [u32; 2]) -> Result<Arc<Texture>, GpuError> {
+        self.pool
+            .get(&self.gpu, label, size, TextureFormat::R32Float)
+    }
+
+    /// One transparent texel, for an optional colour input that is not connected.
+    pub fn blank_color(&self) -> Arc<Texture> {
+        self.blank_color.clone()
+    }
+
+    /// One texel of [`MISS`], for a depth that does not exist.
+    pub fn blank_depth(&self) -> Arc<Texture> {
+        self.blank_depth.clone()
+    }
+
+    /// Tells the listener, if any, how far the processor with this id is.
+    pub fn report(&mut self, id: &str, progress: Progress) {
+        if let Some(listener) = &mut self.progress {
+            listener(id, progress);
+        }
+    }
+}
+
+fn one_texel(gpu: &Gpu, format: TextureFormat, texel: &[f32]) -> Result<Arc<Texture>, GpuError> {
+    let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
+    let texture = gpu.texture_2d("an input that is not connected", [1, 1], format, usage)?;
+    gpu.upload(&texture, bytemuck::cast_slice(texel))?;
+    Ok(Arc::new(texture))
+}
