@@ -46,19 +46,13 @@ pub enum Projection {
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum CameraError {
     /// A coordinate is NaN or infinite.
-    #[error(
-        "the camera's {0} has a coordinate that is not a finite number; give three finite numbers"
-    )]
+    #[error("the camera's {0} has a coordinate that is not a finite number; give three finite numbers")]
     NotFinite(&'static str),
     /// Eye and focus are the same point.
-    #[error(
-        "the camera's position and focus are the same point, so it looks nowhere; move one of them"
-    )]
+    #[error("the camera's position and focus are the same point, so it looks nowhere; move one of them")]
     ZeroDistance,
     /// `up` is zero or parallel to the viewing direction.
-    #[error(
-        "the camera's up direction is zero or parallel to the viewing direction; turn it aside"
-    )]
+    #[error("the camera's up direction is zero or parallel to the viewing direction; turn it aside")]
     UpParallel,
     /// The field of view is not between 0 and 180 degrees.
     #[error("the camera's field of view is {0} degrees; it must be above 0 and below 180")]
@@ -105,25 +99,19 @@ impl Camera {
     /// Names the first thing that is wrong: a coordinate that is not finite, no viewing direction, `up` along it, a field of
     /// view outside (0, 180), a height that is not positive, a negative near distance.
     pub fn validate(&self) -> Result<(), CameraError> {
-        for (name, v) in [
-            ("position", self.position),
-            ("focus", self.focus),
-            ("up", self.up),
-        ] {
+        for (name, v) in [("position", self.position), ("focus", self.focus), ("up", self.up)] {
             if !v.iter().all(|x| x.is_finite()) {
                 return Err(CameraError::NotFinite(name));
             }
         }
-        let forward = direction(DVec3::from(self.focus) - DVec3::from(self.position))
-            .ok_or(CameraError::ZeroDistance)?;
+        let forward =
+            direction(DVec3::from(self.focus) - DVec3::from(self.position)).ok_or(CameraError::ZeroDistance)?;
         let up = direction(self.up.into()).ok_or(CameraError::UpParallel)?;
         if forward.cross(up).length() < MIN_UP_SINE {
             return Err(CameraError::UpParallel);
         }
         match self.projection {
-            Projection::Perspective { fov_degrees: fov } if !(fov > 0.0 && fov < 180.0) => {
-                Err(CameraError::Fov(fov))
-            }
+            Projection::Perspective { fov_degrees: fov } if !(fov > 0.0 && fov < 180.0) => Err(CameraError::Fov(fov)),
             Projection::Orthographic { height } if !(height > 0.0 && height.is_finite()) => {
                 Err(CameraError::Height(height))
             }
@@ -136,23 +124,16 @@ impl Camera {
 
     /// Orthonormal right, up and forward directions in world coordinates, each of length 1 for a valid camera.
     pub fn basis(&self) -> [DVec3; 3] {
-        let forward =
-            direction(DVec3::from(self.focus) - DVec3::from(self.position)).unwrap_or(DVec3::NEG_Z);
+        let forward = direction(DVec3::from(self.focus) - DVec3::from(self.position)).unwrap_or(DVec3::NEG_Z);
         let up = direction(self.up.into()).unwrap_or(DVec3::Y);
-        let right =
-            direction(forward.cross(up)).unwrap_or_else(|| forward.any_orthonormal_vector());
+        let right = direction(forward.cross(up)).unwrap_or_else(|| forward.any_orthonormal_vector());
         [right, right.cross(forward), forward]
     }
 
     /// World to camera coordinates: x right, y up, the camera looks along -z.
     pub fn view_matrix(&self) -> DMat4 {
         let [right, up, forward] = self.basis();
-        let axes = DMat4::from_cols(
-            right.extend(0.0),
-            up.extend(0.0),
-            (-forward).extend(0.0),
-            glam::DVec4::W,
-        );
+        let axes = DMat4::from_cols(right.extend(0.0), up.extend(0.0), (-forward).extend(0.0), glam::DVec4::W);
         axes.transpose() * DMat4::from_translation(-DVec3::from(self.position))
     }
 
@@ -164,8 +145,7 @@ impl Camera {
     /// Turns the eye around the focus: `yaw` to the right and `pitch` upwards, radians. `up` turns along, so nothing flips.
     pub fn orbit(&mut self, yaw: f64, pitch: f64) {
         let [right, up, _] = self.basis();
-        let turn =
-            glam::DQuat::from_axis_angle(up, yaw) * glam::DQuat::from_axis_angle(right, -pitch);
+        let turn = glam::DQuat::from_axis_angle(up, yaw) * glam::DQuat::from_axis_angle(right, -pitch);
         let focus = DVec3::from(self.focus);
         self.position = (focus + turn * (DVec3::from(self.position) - focus)).into();
         self.up = (turn * up).into();
@@ -194,23 +174,12 @@ impl Camera {
         let [_, _, forward] = self.basis();
         let radius = radius.max(f64::MIN_POSITIVE);
         let (distance, projection) = match self.projection {
-            Projection::Perspective { fov_degrees } => (
-                radius / (fov_degrees.to_radians() / 2.0).sin(),
-                self.projection,
-            ),
-            Projection::Orthographic { .. } => (
-                2.0 * radius,
-                Projection::Orthographic {
-                    height: 2.0 * radius,
-                },
-            ),
+            Projection::Perspective { fov_degrees } => {
+                (radius / (fov_degrees.to_radians() / 2.0).sin(), self.projection)
+            }
+            Projection::Orthographic { .. } => (2.0 * radius, Projection::Orthographic { height: 2.0 * radius }),
         };
-        Self {
-            position: (DVec3::from(center) - forward * distance).into(),
-            focus: center,
-            projection,
-            ..*self
-        }
+        Self { position: (DVec3::from(center) - forward * distance).into(), focus: center, projection, ..*self }
     }
 
     /// The JSON form (see the type).
@@ -228,46 +197,21 @@ impl Camera {
 
     /// Reads the JSON form; the camera is valid.
     pub(crate) fn from_node(node: &Node<'_>) -> Result<Self, ValueError> {
-        node.only(&[
-            "position",
-            "focus",
-            "up",
-            "fov_degrees",
-            "orthographic_height",
-            "near",
-        ])?;
+        node.only(&["position", "focus", "up", "fov_degrees", "orthographic_height", "near"])?;
         let triple = |name| node.required(name, "an array of 3 numbers")?.triple();
-        let projection = match (
-            node.field("fov_degrees")?,
-            node.field("orthographic_height")?,
-        ) {
-            (Some(fov), None) => Projection::Perspective {
-                fov_degrees: fov.f64()?,
-            },
-            (None, Some(height)) => Projection::Orthographic {
-                height: height.f64()?,
-            },
+        let projection = match (node.field("fov_degrees")?, node.field("orthographic_height")?) {
+            (Some(fov), None) => Projection::Perspective { fov_degrees: fov.f64()? },
+            (None, Some(height)) => Projection::Orthographic { height: height.f64()? },
             (Some(_), Some(_)) => {
-                return Err(node.error(
-                    "both `fov_degrees` and `orthographic_height`",
-                    "one of them",
-                ));
+                return Err(node.error("both `fov_degrees` and `orthographic_height`", "one of them"));
             }
             (None, None) => {
-                return Err(node.error(
-                    "neither `fov_degrees` nor `orthographic_height`",
-                    "one of them",
-                ));
+                return Err(node.error("neither `fov_degrees` nor `orthographic_height`", "one of them"));
             }
         };
         let near = node.field("near")?.map(|near| near.f64()).transpose()?;
-        let camera = Self {
-            position: triple("position")?,
-            focus: triple("focus")?,
-            up: triple("up")?,
-            projection,
-            near,
-        };
+        let camera =
+            Self { position: triple("position")?, focus: triple("focus")?, up: triple("up")?, projection, near };
         camera.check().map_err(|error| error.within(&node.path))?;
         Ok(camera)
     }
@@ -275,11 +219,7 @@ impl Camera {
     /// [`Camera::validate`] with the JSON field named.
     pub(crate) fn check(&self) -> Result<(), ValueError> {
         self.validate().map_err(|e| {
-            ValueError::new(
-                format!("a camera that forms no image ({e})"),
-                "a valid camera",
-            )
-            .within(e.field())
+            ValueError::new(format!("a camera that forms no image ({e})"), "a valid camera").within(e.field())
         })
     }
 }
@@ -288,11 +228,7 @@ impl Camera {
 fn direction(v: DVec3) -> Option<DVec3> {
     // Scaling by the largest coordinate first keeps tiny and huge vectors apart from zero and infinity.
     let largest = v.abs().max_element();
-    if largest > 0.0 && largest.is_finite() {
-        (v / largest).try_normalize()
-    } else {
-        None
-    }
+    if largest > 0.0 && largest.is_finite() { (v / largest).try_normalize() } else { None }
 }
 
 #[cfg(test)]
@@ -313,16 +249,10 @@ mod tests {
         insta::assert_snapshot!(refusal(|c| c.up = [0.0; 3]), @"the camera's up direction is zero or parallel to the viewing direction; turn it aside");
         insta::assert_snapshot!(refusal(|c| c.focus[1] = f64::NAN), @"the camera's focus has a coordinate that is not a finite number; give three finite numbers");
         for fov in [0.0, 180.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(
-                refusal(|c| c.projection = Projection::Perspective { fov_degrees: fov })
-                    .contains("field of view")
-            );
+            assert!(refusal(|c| c.projection = Projection::Perspective { fov_degrees: fov }).contains("field of view"));
         }
         for height in [0.0, f64::NAN, f64::INFINITY] {
-            assert!(
-                refusal(|c| c.projection = Projection::Orthographic { height })
-                    .contains("orthographic height")
-            );
+            assert!(refusal(|c| c.projection = Projection::Orthographic { height }).contains("orthographic height"));
         }
         assert!(refusal(|c| c.near = Some(-1.0)).contains("near distance"));
     }
@@ -330,21 +260,14 @@ mod tests {
     #[test]
     fn tiny_and_huge_scenes_are_valid() {
         for scale in [1e-200, 1e-9, 1e9, 1e200] {
-            let camera = Camera {
-                position: [0.0, -scale, 0.0],
-                ..Camera::default()
-            };
+            let camera = Camera { position: [0.0, -scale, 0.0], ..Camera::default() };
             assert_eq!(camera.validate(), Ok(()), "{scale}");
         }
     }
 
     #[test]
     fn the_view_matrix_puts_the_focus_on_the_negative_z_axis() {
-        let camera = Camera {
-            position: [3.0, -2.0, 5.0],
-            focus: [1.0, 1.0, 1.0],
-            ..Camera::default()
-        };
+        let camera = Camera { position: [3.0, -2.0, 5.0], focus: [1.0, 1.0, 1.0], ..Camera::default() };
         let seen = camera.view_matrix().transform_point3(camera.focus.into());
         assert!(seen.distance(DVec3::new(0.0, 0.0, -camera.distance())) < 1e-12);
         let [right, up, forward] = camera.basis();

@@ -95,21 +95,9 @@ pub fn can_connect(network: &Network, from: &Address, to: &Address) -> Result<()
         return Err(Refusal::Itself(from.processor.clone()));
     }
     if !inport.accepts.contains(&outport.port_type) {
-        let expected = inport
-            .accepts
-            .iter()
-            .map(PortType::to_string)
-            .collect::<Vec<_>>()
-            .join(" or ");
-        let connection = Box::new(Connection {
-            from: from.clone(),
-            to: to.clone(),
-        });
-        return Err(Refusal::Type {
-            connection,
-            found: outport.port_type,
-            expected,
-        });
+        let expected = inport.accepts.iter().map(PortType::to_string).collect::<Vec<_>>().join(" or ");
+        let connection = Box::new(Connection { from: from.clone(), to: to.clone() });
+        return Err(Refusal::Type { connection, found: outport.port_type, expected });
     }
     check_place(network, from, to, inport.multiple)?;
     check_cycle(network, from, to)
@@ -117,10 +105,7 @@ pub fn can_connect(network: &Network, from: &Address, to: &Address) -> Result<()
 
 /// As [`can_connect`], but for a connection from a file, which may end at placeholders.
 pub(crate) fn can_keep(network: &Network, from: &Address, to: &Address) -> Result<(), Refusal> {
-    let (source, target) = (
-        find(network, &from.processor)?,
-        find(network, &to.processor)?,
-    );
+    let (source, target) = (find(network, &from.processor)?, find(network, &to.processor)?);
     if !source.is_placeholder() && !target.is_placeholder() {
         return can_connect(network, from, to);
     }
@@ -136,71 +121,40 @@ pub(crate) fn can_keep(network: &Network, from: &Address, to: &Address) -> Resul
 }
 
 fn find<'a>(network: &'a Network, id: &str) -> Result<&'a Processor, Refusal> {
-    let unknown = || Refusal::UnknownProcessor {
-        id: id.to_owned(),
-        hint: hint(id, network.ids()),
-    };
+    let unknown = || Refusal::UnknownProcessor { id: id.to_owned(), hint: hint(id, network.ids()) };
     network.processor(id).ok_or_else(unknown)
 }
 
 fn outport<'a>(processor: &'a Processor, address: &Address) -> Result<&'a OutportDecl, Refusal> {
-    let declaration = processor
-        .declaration()
-        .ok_or_else(|| placeholder(processor))?;
-    declaration
-        .outport(&address.item)
-        .ok_or_else(|| Refusal::NoOutport {
-            address: address.clone(),
-            type_id: processor.type_id.clone(),
-            hint: hint(
-                &address.item,
-                declaration.outports.iter().map(|port| port.id.as_str()),
-            ),
-        })
+    let declaration = processor.declaration().ok_or_else(|| placeholder(processor))?;
+    declaration.outport(&address.item).ok_or_else(|| Refusal::NoOutport {
+        address: address.clone(),
+        type_id: processor.type_id.clone(),
+        hint: hint(&address.item, declaration.outports.iter().map(|port| port.id.as_str())),
+    })
 }
 
 fn inport<'a>(processor: &'a Processor, address: &Address) -> Result<&'a InportDecl, Refusal> {
-    let declaration = processor
-        .declaration()
-        .ok_or_else(|| placeholder(processor))?;
-    declaration
-        .inport(&address.item)
-        .ok_or_else(|| Refusal::NoInport {
-            address: address.clone(),
-            type_id: processor.type_id.clone(),
-            hint: hint(
-                &address.item,
-                declaration.inports.iter().map(|port| port.id.as_str()),
-            ),
-        })
+    let declaration = processor.declaration().ok_or_else(|| placeholder(processor))?;
+    declaration.inport(&address.item).ok_or_else(|| Refusal::NoInport {
+        address: address.clone(),
+        type_id: processor.type_id.clone(),
+        hint: hint(&address.item, declaration.inports.iter().map(|port| port.id.as_str())),
+    })
 }
 
 fn placeholder(processor: &Processor) -> Refusal {
-    Refusal::Placeholder {
-        id: processor.id.clone(),
-        type_id: processor.type_id.clone(),
-    }
+    Refusal::Placeholder { id: processor.id.clone(), type_id: processor.type_id.clone() }
 }
 
 /// Refuses a second identical connection, and a second one into an inport for one.
-fn check_place(
-    network: &Network,
-    from: &Address,
-    to: &Address,
-    multiple: bool,
-) -> Result<(), Refusal> {
-    let mut into = network
-        .connections
-        .iter()
-        .filter(|connection| connection.to == *to);
+fn check_place(network: &Network, from: &Address, to: &Address, multiple: bool) -> Result<(), Refusal> {
+    let mut into = network.connections.iter().filter(|connection| connection.to == *to);
     if into.clone().any(|connection| connection.from == *from) {
         return Err(Refusal::Already(from.clone(), to.clone()));
     }
     match into.next() {
-        Some(other) if !multiple => Err(Refusal::Occupied {
-            to: to.clone(),
-            by: other.from.clone(),
-        }),
+        Some(other) if !multiple => Err(Refusal::Occupied { to: to.clone(), by: other.from.clone() }),
         _ => Ok(()),
     }
 }
@@ -212,9 +166,7 @@ fn check_cycle(network: &Network, from: &Address, to: &Address) -> Result<(), Re
     let mut queue = VecDeque::from([start]);
     while let Some(processor) = queue.pop_front() {
         if processor == goal {
-            return Err(Refusal::Cycle {
-                path: cycle(&reached_from, start, goal),
-            });
+            return Err(Refusal::Cycle { path: cycle(&reached_from, start, goal) });
         }
         for connection in network.outputs(processor) {
             let next = connection.to.processor.as_str();
@@ -247,11 +199,7 @@ impl Network {
     ///
     /// # Errors
     /// As [`can_connect`].
-    pub fn connect(
-        &mut self,
-        from: impl Into<Address>,
-        to: impl Into<Address>,
-    ) -> Result<(), Refusal> {
+    pub fn connect(&mut self, from: impl Into<Address>, to: impl Into<Address>) -> Result<(), Refusal> {
         let (from, to) = (from.into(), to.into());
         can_connect(self, &from, &to)?;
         self.connections.push(Connection { from, to });
@@ -260,10 +208,7 @@ impl Network {
 
     /// Removes a connection; `false` if there was none.
     pub fn disconnect(&mut self, from: impl Into<Address>, to: impl Into<Address>) -> bool {
-        let gone = Connection {
-            from: from.into(),
-            to: to.into(),
-        };
+        let gone = Connection { from: from.into(), to: to.into() };
         let before = self.connections.len();
         self.connections.retain(|connection| *connection != gone);
         self.connections.len() < before

@@ -31,28 +31,12 @@ impl PropertyDecl {
         use PropertyKind as K;
         match (&self.kind, value) {
             (K::Bool, Value::Bool(_)) => Ok(()),
-            (
-                K::Int {
-                    range: [min, max],
-                    unit,
-                },
-                Value::Int(n),
-            ) => {
+            (K::Int { range: [min, max], unit }, Value::Int(n)) => {
                 let inside = (min..=max).contains(&n);
-                inside
-                    .then_some(())
-                    .ok_or_else(|| outside(n, *min != i64::MIN, min, *max != i64::MAX, max, unit))
+                inside.then_some(()).ok_or_else(|| outside(n, *min != i64::MIN, min, *max != i64::MAX, max, unit))
             }
             (K::Float { range, unit, .. }, Value::Float(x)) => in_range(*x, *range, unit),
-            (
-                K::Vector {
-                    len,
-                    range,
-                    unit,
-                    whole,
-                },
-                Value::Vector(v),
-            ) => check_vector(v, *len, *range, unit, *whole),
+            (K::Vector { len, range, unit, whole }, Value::Vector(v)) => check_vector(v, *len, *range, unit, *whole),
             (K::Color, Value::Color(c)) => check_color(c),
             (K::Choice { choices }, Value::Text(id)) => {
                 let ids = || choices.iter().map(|choice| choice.id.as_str());
@@ -60,15 +44,9 @@ impl PropertyDecl {
                     return Ok(());
                 }
                 let hint = hint(id, ids());
-                Err(ValueError::new(
-                    format!("`{id}`"),
-                    format!("one of the choices.{}", hint.trim_end_matches('.')),
-                ))
+                Err(ValueError::new(format!("`{id}`"), format!("one of the choices.{hint}")))
             }
-            (
-                K::Text { .. } | K::File { .. } | K::Snippet { .. } | K::ShaderText { .. },
-                Value::Text(_),
-            ) => Ok(()),
+            (K::Text { .. } | K::File { .. } | K::Snippet { .. } | K::ShaderText { .. }, Value::Text(_)) => Ok(()),
             (K::TransferFunction, Value::TransferFunction(_)) => Ok(()),
             (K::TransferFunction2D, Value::TransferFunction2D(_)) => Ok(()),
             (K::Labels, Value::Labels(_)) => Ok(()),
@@ -111,15 +89,11 @@ fn read(kind: &PropertyKind, node: &Node<'_>) -> Result<Value, ValueError> {
         K::Float { .. } => Value::Float(node.f64()?),
         K::Vector { len, .. } => Value::Vector(node.numbers(*len)?),
         K::Color => Value::Color(read_color(node)?),
-        K::Choice { .. }
-        | K::Text { .. }
-        | K::File { .. }
-        | K::Snippet { .. }
-        | K::ShaderText { .. } => Value::Text(node.string()?.to_owned()),
-        K::TransferFunction => Value::TransferFunction(read_serde::<TransferFunction>(kind, node)?),
-        K::TransferFunction2D => {
-            Value::TransferFunction2D(read_serde::<TransferFunction2D>(kind, node)?)
+        K::Choice { .. } | K::Text { .. } | K::File { .. } | K::Snippet { .. } | K::ShaderText { .. } => {
+            Value::Text(node.string()?.to_owned())
         }
+        K::TransferFunction => Value::TransferFunction(read_serde::<TransferFunction>(kind, node)?),
+        K::TransferFunction2D => Value::TransferFunction2D(read_serde::<TransferFunction2D>(kind, node)?),
         K::Labels => Value::Labels(read_serde::<LabelTable>(kind, node)?),
         K::Camera => Value::Camera(Camera::from_node(node)?),
         K::Light => Value::Light(Light::from_node(node)?),
@@ -138,22 +112,12 @@ fn read_color(node: &Node<'_>) -> Result<[f64; 4], ValueError> {
 
 fn read_serde<T: DeserializeOwned>(kind: &PropertyKind, node: &Node<'_>) -> Result<T, ValueError> {
     let name = kind.value_name();
-    T::deserialize(node.json)
-        .map_err(|e| node.error(format!("something that is not {name} ({e})"), name))
+    T::deserialize(node.json).map_err(|e| node.error(format!("something that is not {name} ({e})"), name))
 }
 
-fn check_vector(
-    v: &[f64],
-    len: usize,
-    range: [f64; 2],
-    unit: &str,
-    whole: bool,
-) -> Result<(), ValueError> {
+fn check_vector(v: &[f64], len: usize, range: [f64; 2], unit: &str, whole: bool) -> Result<(), ValueError> {
     if v.len() != len {
-        return Err(ValueError::new(
-            format!("{} components", v.len()),
-            format!("{len} components"),
-        ));
+        return Err(ValueError::new(format!("{} components", v.len()), format!("{len} components")));
     }
     for (i, x) in v.iter().enumerate() {
         let place = format!("[{i}]");
@@ -166,31 +130,21 @@ fn check_vector(
 }
 
 fn check_color(color: &[f64; 4]) -> Result<(), ValueError> {
-    color.iter().enumerate().try_for_each(|(i, x)| {
-        in_range(*x, [0.0, 1.0], "").map_err(|e| e.within(&format!("[{i}]")))
-    })
+    color
+        .iter()
+        .enumerate()
+        .try_for_each(|(i, x)| in_range(*x, [0.0, 1.0], "").map_err(|e| e.within(&format!("[{i}]"))))
 }
 
 fn in_range(x: f64, [min, max]: [f64; 2], unit: &str) -> Result<(), ValueError> {
     if !x.is_finite() {
         return Err(ValueError::new(x.to_string(), "a finite number"));
     }
-    if min <= x && x <= max {
-        Ok(())
-    } else {
-        Err(outside(x, min.is_finite(), min, max.is_finite(), max, unit))
-    }
+    if min <= x && x <= max { Ok(()) } else { Err(outside(x, min.is_finite(), min, max.is_finite(), max, unit)) }
 }
 
 /// The error of a number outside its range; an end that does not exist is not mentioned.
-fn outside<T: std::fmt::Display>(
-    x: T,
-    lower: bool,
-    min: T,
-    upper: bool,
-    max: T,
-    unit: &str,
-) -> ValueError {
+fn outside<T: std::fmt::Display>(x: T, lower: bool, min: T, upper: bool, max: T, unit: &str) -> ValueError {
     let range = match (lower, upper) {
         (true, true) => format!("a number from {min} to {max}"),
         (true, false) => format!("a number of at least {min}"),

@@ -89,10 +89,7 @@ impl Network {
     /// # Errors
     /// An unknown type, a malformed id or one that is taken ([`Network::free_id`] finds a free one).
     pub fn add(&mut self, type_id: &str, id: &str) -> Result<(), EditError> {
-        let unknown = || EditError::UnknownType {
-            id: type_id.to_owned(),
-            hint: hint(type_id, self.registry.ids()),
-        };
+        let unknown = || EditError::UnknownType { id: type_id.to_owned(), hint: hint(type_id, self.registry.ids()) };
         let processor_type = self.registry.get(type_id).ok_or_else(unknown)?.clone();
         self.check_new_id(id)?;
         self.processors.push(Processor {
@@ -114,10 +111,8 @@ impl Network {
     pub fn remove(&mut self, id: &str) -> Result<(), EditError> {
         self.existing(id)?;
         self.processors.retain(|p| p.id != id);
-        self.connections
-            .retain(|c| c.from.processor != id && c.to.processor != id);
-        self.links
-            .retain(|l| l.a.processor != id && l.b.processor != id);
+        self.connections.retain(|c| c.from.processor != id && c.to.processor != id);
+        self.links.retain(|l| l.a.processor != id && l.b.processor != id);
         Ok(())
     }
 
@@ -131,14 +126,9 @@ impl Network {
             return Ok(());
         }
         self.check_new_id(new)?;
-        let ends = self
-            .connections
-            .iter_mut()
-            .flat_map(|c| [&mut c.from, &mut c.to]);
+        let ends = self.connections.iter_mut().flat_map(|c| [&mut c.from, &mut c.to]);
         let ends = ends.chain(self.links.iter_mut().flat_map(|l| [&mut l.a, &mut l.b]));
-        let ids = ends
-            .map(|address| &mut address.processor)
-            .chain(self.processors.iter_mut().map(|p| &mut p.id));
+        let ids = ends.map(|address| &mut address.processor).chain(self.processors.iter_mut().map(|p| &mut p.id));
         for place in ids.filter(|place| *place == id) {
             *place = new.to_owned();
         }
@@ -171,35 +161,20 @@ impl Network {
     ///
     /// # Errors
     /// An unknown processor or property, or a value that the property or one linked to it refuses.
-    pub fn set_property(
-        &mut self,
-        processor: &str,
-        property: &str,
-        value: Value,
-    ) -> Result<Vec<Address>, EditError> {
+    pub fn set_property(&mut self, processor: &str, property: &str, value: Value) -> Result<Vec<Address>, EditError> {
         let address = Address::new(processor, property);
         self.declared(&address)?;
         let group = self.linked_with(&address);
         for linked in &group {
-            if let Some(Err(error)) = self
-                .declared_if_present(linked)
-                .map(|decl| decl.check(&value))
-            {
+            if let Some(Err(error)) = self.declared_if_present(linked).map(|decl| decl.check(&value)) {
                 let error = Box::new(error);
                 return Err(match *linked == address {
                     true => EditError::Value { address, error },
-                    false => EditError::LinkedValue {
-                        address,
-                        linked: linked.clone(),
-                        error,
-                    },
+                    false => EditError::LinkedValue { address, linked: linked.clone(), error },
                 });
             }
         }
-        Ok(group
-            .into_iter()
-            .filter(|linked| self.store(linked, &value))
-            .collect())
+        Ok(group.into_iter().filter(|linked| self.store(linked, &value)).collect())
     }
 
     /// Sets a property from JSON, as the command line's `--set` does. A camera or light may leave out fields: they keep their
@@ -207,24 +182,14 @@ impl Network {
     ///
     /// # Errors
     /// As [`Network::set_property`], with the closest names for a mistyped one.
-    pub fn set_from_json(
-        &mut self,
-        processor: &str,
-        property: &str,
-        json: &Json,
-    ) -> Result<Vec<Address>, EditError> {
+    pub fn set_from_json(&mut self, processor: &str, property: &str, json: &Json) -> Result<Vec<Address>, EditError> {
         let address = Address::new(processor, property);
         let decl = self.declared(&address)?;
         let merged = match decl.kind {
-            PropertyKind::Camera | PropertyKind::Light => {
-                merge(self.current(&address, &decl).to_json(), json)
-            }
+            PropertyKind::Camera | PropertyKind::Light => merge(self.current(&address, &decl).to_json(), json),
             _ => json.clone(),
         };
-        let value = decl.parse(&merged).map_err(|error| EditError::Value {
-            address,
-            error: Box::new(error),
-        })?;
+        let value = decl.parse(&merged).map_err(|error| EditError::Value { address, error: Box::new(error) })?;
         self.set_property(processor, property, value)
     }
 
@@ -232,11 +197,7 @@ impl Network {
     ///
     /// # Errors
     /// As [`Network::set_property`].
-    pub fn reset_property(
-        &mut self,
-        processor: &str,
-        property: &str,
-    ) -> Result<Vec<Address>, EditError> {
+    pub fn reset_property(&mut self, processor: &str, property: &str) -> Result<Vec<Address>, EditError> {
         let default = self.declared(&Address::new(processor, property))?.default;
         self.set_property(processor, property, default)
     }
@@ -246,39 +207,26 @@ impl Network {
         let processor = self.existing(&address.processor)?;
         let type_id = processor.type_id.clone();
         if processor.is_placeholder() {
-            return Err(EditError::Placeholder {
-                id: address.processor.clone(),
-                type_id,
-            });
+            return Err(EditError::Placeholder { id: address.processor.clone(), type_id });
         }
         let mut decls = processor.property_decls();
         match decls.iter().position(|decl| decl.id == address.item) {
             Some(index) => Ok(decls.swap_remove(index)),
             None => {
                 let hint = hint(&address.item, decls.iter().map(|decl| decl.id.as_str()));
-                Err(EditError::UnknownProperty {
-                    address: address.clone(),
-                    type_id,
-                    hint,
-                })
+                Err(EditError::UnknownProperty { address: address.clone(), type_id, hint })
             }
         }
     }
 
     fn existing(&self, id: &str) -> Result<&Processor, EditError> {
-        let unknown = || EditError::UnknownProcessor {
-            id: id.to_owned(),
-            hint: hint(id, self.ids()),
-        };
+        let unknown = || EditError::UnknownProcessor { id: id.to_owned(), hint: hint(id, self.ids()) };
         self.processor(id).ok_or_else(unknown)
     }
 
     fn existing_mut(&mut self, id: &str) -> Result<&mut Processor, EditError> {
         self.existing(id)?;
-        let unknown = EditError::UnknownProcessor {
-            id: id.to_owned(),
-            hint: String::new(),
-        };
+        let unknown = EditError::UnknownProcessor { id: id.to_owned(), hint: String::new() };
         self.processor_mut(id).ok_or(unknown)
     }
 
@@ -298,10 +246,7 @@ fn merge(mut whole: Json, part: &Json) -> Json {
     let (Some(fields), Some(changes)) = (whole.as_object_mut(), part.as_object()) else {
         return part.clone();
     };
-    for (one, other) in [
-        ("fov_degrees", "orthographic_height"),
-        ("orthographic_height", "fov_degrees"),
-    ] {
+    for (one, other) in [("fov_degrees", "orthographic_height"), ("orthographic_height", "fov_degrees")] {
         if changes.contains_key(one) {
             fields.remove(other);
         }

@@ -7,6 +7,7 @@ use crate::job::{Backend, Input, Inputs, Job, Outputs, ProcessError};
 use crate::names::{Address, quoted};
 use crate::network::{Network, Processor};
 use crate::plan::Plan;
+use crate::port::Facts;
 use crate::processor::Declaration;
 use crate::property::{Level, PropertyDecl};
 use crate::readiness::{causes, chain};
@@ -55,12 +56,7 @@ impl<B: Backend> Default for Evaluator<B> {
 impl<B: Backend> Evaluator<B> {
     /// An evaluator that has no results yet.
     pub fn new() -> Self {
-        Self {
-            memories: BTreeMap::new(),
-            standings: BTreeMap::new(),
-            asked: BTreeMap::new(),
-            revision: 0,
-        }
+        Self { memories: BTreeMap::new(), standings: BTreeMap::new(), asked: BTreeMap::new(), revision: 0 }
     }
 
     /// Brings what the request names up to date. A processor that fails keeps its error and is not tried again before
@@ -68,11 +64,7 @@ impl<B: Backend> Evaluator<B> {
     pub fn evaluate(&mut self, network: &Network, backend: &mut B, request: &Request) -> Report {
         let start = Instant::now();
         let plan = Plan::new(network, request);
-        self.memories.retain(|id, memory| {
-            network
-                .processor(id)
-                .is_some_and(|p| p.type_id() == memory.type_id)
-        });
+        self.memories.retain(|id, memory| network.processor(id).is_some_and(|p| p.type_id() == memory.type_id));
         self.asked.retain(|id, _| network.processor(id).is_some());
         self.standings.clear();
         let mut report = Report::default();
@@ -102,9 +94,7 @@ impl<B: Backend> Evaluator<B> {
         processor: &'a str,
         inport: &'a str,
     ) -> impl Iterator<Item = &'a B::Data> {
-        let into = network
-            .inputs(processor)
-            .filter(move |connection| connection.to.item == inport);
+        let into = network.inputs(processor).filter(move |connection| connection.to.item == inport);
         into.filter_map(|connection| self.output(&connection.from.processor, &connection.from.item))
     }
 
@@ -157,8 +147,7 @@ impl<B: Backend> Evaluator<B> {
             Ok(inputs) => inputs,
             Err(Blocked(causes)) => return Standing::NotReady(causes),
         };
-        let (Some(processor_type), Some(&size)) = (processor.processor_type(), plan.size.get(id))
-        else {
+        let (Some(processor_type), Some(&size)) = (processor.processor_type(), plan.size.get(id)) else {
             return Standing::NotReady(Vec::new());
         };
         let (decls, properties) = processor.resolve();
@@ -166,10 +155,7 @@ impl<B: Backend> Evaluator<B> {
             properties,
             inputs: sources(&inputs),
             wanted: plan.wanted.get(id).cloned().unwrap_or_default(),
-            size: processor_type
-                .declaration()
-                .uses_render_size
-                .then_some(size),
+            size: processor_type.declaration().uses_render_size.then_some(size),
         };
         if let Some((level, reasons)) = self.stale(id, &signature, &decls) {
             let job = Job {
@@ -193,12 +179,7 @@ impl<B: Backend> Evaluator<B> {
     }
 
     /// Why a processor must run and what is stale at most; `None` if its result is still right.
-    fn stale(
-        &mut self,
-        id: &str,
-        signature: &Signature,
-        decls: &[PropertyDecl],
-    ) -> Option<(Level, Vec<Reason>)> {
+    fn stale(&mut self, id: &str, signature: &Signature, decls: &[PropertyDecl]) -> Option<(Level, Vec<Reason>)> {
         let mut reasons = match self.memories.get(id) {
             Some(memory) => diff(id, &memory.signature, signature, decls),
             None => vec![(Level::Ports, Reason::FirstRun)],
@@ -207,73 +188,34 @@ impl<B: Backend> Evaluator<B> {
             reasons.extend(asked.into_iter().map(|reason| (level, reason)));
         }
         let level = reasons.iter().map(|(level, _)| *level).max()?;
-        Some((
-            level,
-            reasons.into_iter().map(|(_, reason)| reason).collect(),
-        ))
+        Some((level, reasons.into_iter().map(|(_, reason)| reason).collect()))
     }
 
-    fn remember(
-        &mut self,
-        processor: &Processor,
-        signature: Signature,
-        run: Run,
-        data: BTreeMap<String, B::Data>,
-    ) {
+    fn remember(&mut self, processor: &Processor, signature: Signature, run: Run, data: BTreeMap<String, B::Data>) {
         self.revision += 1;
         let (type_id, revision) = (processor.type_id().to_owned(), self.revision);
-        let memory = Memory {
-            type_id,
-            signature,
-            data,
-            revision,
-            run,
-        };
+        let memory = Memory { type_id, signature, data, revision, run };
         self.memories.insert(processor.id().to_owned(), memory);
     }
 
     /// The data at every connected inport, or why it is not all there.
-    fn gather(
-        &self,
-        network: &Network,
-        backend: &B,
-        processor: &Processor,
-    ) -> Result<Inputs<B::Data>, Blocked> {
+    fn gather(&self, network: &Network, backend: &B, processor: &Processor) -> Result<Inputs<B::Data>, Blocked> {
         let id = processor.id();
         let mut blocked = Blocked(causes(network, processor));
         let mut complete = blocked.0.is_empty();
         let mut inputs = Inputs::new();
         for connection in network.inputs(id) {
-            let Address {
-                processor: source,
-                item,
-            } = &connection.from;
+            let Address { processor: source, item } = &connection.from;
             let revision = self.memories.get(source).map(|memory| memory.revision);
             let (Some(data), Some(revision)) = (self.output(source, item), revision) else {
                 complete = false;
                 continue;
             };
             let inport = &connection.to.item;
-            let decl = processor
-                .declaration()
-                .and_then(|declaration| declaration.inport(inport));
-            let facts = backend.facts(data);
-            for condition in decl
-                .iter()
-                .flat_map(|decl| &decl.conditions)
-                .filter(|condition| !(condition.holds)(&facts))
-            {
-                complete = false;
-                blocked.0.push(format!(
-                    "{id}: input `{inport}` needs {}",
-                    condition.message
-                ));
-            }
-            let input = Input {
-                data: data.clone(),
-                from: connection.from.clone(),
-                revision,
-            };
+            let unmet = unmet(processor, inport, &backend.facts(data));
+            complete &= unmet.is_empty();
+            blocked.0.extend(unmet);
+            let input = Input { data: data.clone(), from: connection.from.clone(), revision };
             inputs.entry(inport.clone()).or_default().push(input);
         }
         if complete { Ok(inputs) } else { Err(blocked) }
@@ -283,23 +225,15 @@ impl<B: Backend> Evaluator<B> {
     fn conclude(&self, network: &Network, plan: &Plan, report: &mut Report) {
         let causes = |id: &str| match self.standings.get(id) {
             Some(Standing::NotReady(causes)) => causes.clone(),
-            Some(Standing::Failed) => self
-                .error(id)
-                .map(|error| format!("{id} failed: {error}"))
-                .into_iter()
-                .collect(),
+            Some(Standing::Failed) => self.error(id).map(|error| format!("{id} failed: {error}")).into_iter().collect(),
             _ => Vec::new(),
         };
         for id in &plan.order {
             match self.standings.get(id) {
                 Some(Standing::NotReady(_)) => {
-                    report
-                        .not_ready
-                        .insert(id.clone(), chain(network, id, &causes));
+                    report.not_ready.insert(id.clone(), chain(network, id, &causes));
                 }
-                Some(Standing::Failed) => report
-                    .failed
-                    .extend(self.error(id).map(|error| (id.clone(), error.clone()))),
+                Some(Standing::Failed) => report.failed.extend(self.error(id).map(|error| (id.clone(), error.clone()))),
                 _ => {}
             }
         }
@@ -313,13 +247,20 @@ impl<B: Backend> Evaluator<B> {
     }
 }
 
+/// The conditions of an inport that data does not satisfy, as causes.
+fn unmet(processor: &Processor, inport: &str, facts: &Facts) -> Vec<String> {
+    let decl = processor.declaration().and_then(|declaration| declaration.inport(inport));
+    let conditions = decl.into_iter().flat_map(|decl| &decl.conditions);
+    conditions
+        .filter(|condition| !(condition.holds)(facts))
+        .map(|condition| format!("{}: input `{inport}` needs {}", processor.id(), condition.message))
+        .collect()
+}
+
 /// Where the data at each inport comes from, with revisions.
 fn sources<D>(inputs: &Inputs<D>) -> BTreeMap<String, Vec<(Address, u64)>> {
     let source = |input: &Input<D>| (input.from.clone(), input.revision);
-    inputs
-        .iter()
-        .map(|(inport, inputs)| (inport.clone(), inputs.iter().map(source).collect()))
-        .collect()
+    inputs.iter().map(|(inport, inputs)| (inport.clone(), inputs.iter().map(source).collect())).collect()
 }
 
 /// Runs a job, takes its time and checks what comes out.
@@ -328,38 +269,16 @@ fn run<B: Backend>(backend: &mut B, job: &Job<'_, B::Data>) -> (Run, BTreeMap<St
     let result = backend.process(job);
     let cpu = start.elapsed();
     let checked = result.and_then(|outputs| {
-        check_outputs(
-            backend,
-            job.processor_type.declaration(),
-            job.wanted,
-            &outputs,
-        )?;
+        check_outputs(backend, job.processor_type.declaration(), job.wanted, &outputs)?;
         Ok(outputs)
     });
     let (outcome, outputs) = match checked {
         Ok(outputs) => (Outcome::Done, outputs),
         Err(error) => (Outcome::Failed(error), Outputs::new()),
     };
-    let Outputs {
-        data,
-        gpu_time,
-        notes,
-        statistics,
-    } = outputs;
+    let Outputs { data, gpu_time, notes, statistics } = outputs;
     let (processor, reasons) = (job.id.to_owned(), job.reasons.to_vec());
-    (
-        Run {
-            processor,
-            reasons,
-            level: job.level,
-            cpu,
-            gpu: gpu_time,
-            outcome,
-            notes,
-            statistics,
-        },
-        data,
-    )
+    (Run { processor, reasons, level: job.level, cpu, gpu: gpu_time, outcome, notes, statistics }, data)
 }
 
 /// Everything wanted must be there, and nothing that was not declared or is of another type.
@@ -369,15 +288,9 @@ fn check_outputs<B: Backend>(
     wanted: &BTreeSet<String>,
     outputs: &Outputs<B::Data>,
 ) -> Result<(), ProcessError> {
-    let missing: Vec<&String> = wanted
-        .iter()
-        .filter(|outport| !outputs.data.contains_key(*outport))
-        .collect();
+    let missing: Vec<&String> = wanted.iter().filter(|outport| !outputs.data.contains_key(*outport)).collect();
     if !missing.is_empty() {
-        return Err(ProcessError::new(format!(
-            "it ran but gave nothing on {}",
-            quoted(&missing, ", ")
-        )));
+        return Err(ProcessError::new(format!("it ran but gave nothing on {}", quoted(&missing, ", "))));
     }
     for (outport, data) in &outputs.data {
         let found = backend.facts(data).port_type();
@@ -390,9 +303,7 @@ fn check_outputs<B: Backend>(
                 )));
             }
             None => {
-                return Err(ProcessError::new(format!(
-                    "it gave data on `{outport}`, which it does not declare"
-                )));
+                return Err(ProcessError::new(format!("it gave data on `{outport}`, which it does not declare")));
             }
         }
     }

@@ -72,11 +72,7 @@ impl<D> Job<'_, D> {
 
     /// All data at an inport, in the order of the connections.
     pub fn inputs(&self, inport: &str) -> impl Iterator<Item = &D> {
-        self.inputs
-            .get(inport)
-            .into_iter()
-            .flatten()
-            .map(|input| &input.data)
+        self.inputs.get(inport).into_iter().flatten().map(|input| &input.data)
     }
 
     /// Whether something consumes this outport.
@@ -100,12 +96,7 @@ pub struct Outputs<D> {
 
 impl<D> Default for Outputs<D> {
     fn default() -> Self {
-        Self {
-            data: BTreeMap::new(),
-            gpu_time: None,
-            notes: Vec::new(),
-            statistics: serde_json::Map::new(),
-        }
+        Self { data: BTreeMap::new(), gpu_time: None, notes: Vec::new(), statistics: serde_json::Map::new() }
     }
 }
 
@@ -138,11 +129,7 @@ pub struct Mark {
 
 impl fmt::Display for Mark {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{}:{}:{}: {}",
-            self.source, self.line, self.column, self.message
-        )
+        write!(f, "{}:{}:{}: {}", self.source, self.line, self.column, self.message)
     }
 }
 
@@ -158,27 +145,19 @@ pub struct ProcessError {
 impl ProcessError {
     /// An error with a message.
     pub fn new(message: impl Into<String>) -> Self {
-        Self {
-            message: message.into(),
-            marks: Vec::new(),
-        }
+        Self { message: message.into(), marks: Vec::new() }
     }
 
     /// An error about places in source text.
     pub fn with_marks(message: impl Into<String>, marks: Vec<Mark>) -> Self {
-        Self {
-            message: message.into(),
-            marks,
-        }
+        Self { message: message.into(), marks }
     }
 }
 
 impl fmt::Display for ProcessError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.message)?;
-        self.marks
-            .iter()
-            .try_for_each(|mark| write!(f, "\n  {mark}"))
+        self.marks.iter().try_for_each(|mark| write!(f, "\n  {mark}"))
     }
 }
 

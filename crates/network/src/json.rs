@@ -11,7 +11,7 @@ use crate::names::hint;
 
 /// A JSON value (or a property's value) that is not what its place needs.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("{}found {found}, expected {expected}.", prefix(path))]
+#[error("{}found {found}, expected {expected}{}", prefix(path), full_stop(expected))]
 pub struct ValueError {
     /// Where: a JSON path such as `processors[2].properties.camera`, empty for the value itself.
     pub path: String,
@@ -22,21 +22,18 @@ pub struct ValueError {
 }
 
 fn prefix(path: &str) -> String {
-    if path.is_empty() {
-        String::new()
-    } else {
-        format!("{path}: ")
-    }
+    if path.is_empty() { String::new() } else { format!("{path}: ") }
+}
+
+/// Ends a sentence that a hint may have ended already.
+fn full_stop(text: &str) -> &'static str {
+    if text.ends_with(['.', '?']) { "" } else { "." }
 }
 
 impl ValueError {
     /// An error about the value itself (empty path).
     pub fn new(found: impl Into<String>, expected: impl Into<String>) -> Self {
-        Self {
-            path: String::new(),
-            found: found.into(),
-            expected: expected.into(),
-        }
+        Self { path: String::new(), found: found.into(), expected: expected.into() }
     }
 
     /// The same error seen from outside: `path` goes before its own.
@@ -48,11 +45,7 @@ impl ValueError {
 
 /// `outer.inner`, without a dot before an index or beside an empty part.
 fn join(outer: &str, inner: &str) -> String {
-    let dot = if outer.is_empty() || inner.is_empty() || inner.starts_with('[') {
-        ""
-    } else {
-        "."
-    };
+    let dot = if outer.is_empty() || inner.is_empty() || inner.starts_with('[') { "" } else { "." };
     format!("{outer}{dot}{inner}")
 }
 
@@ -65,18 +58,11 @@ pub(crate) struct Node<'a> {
 
 impl<'a> Node<'a> {
     pub fn root(json: &'a Json) -> Self {
-        Self {
-            path: String::new(),
-            json,
-        }
+        Self { path: String::new(), json }
     }
 
     pub fn error(&self, found: impl Into<String>, expected: impl Into<String>) -> ValueError {
-        ValueError {
-            path: self.path.clone(),
-            found: found.into(),
-            expected: expected.into(),
-        }
+        ValueError { path: self.path.clone(), found: found.into(), expected: expected.into() }
     }
 
     fn mismatch(&self, expected: &str) -> ValueError {
@@ -84,60 +70,32 @@ impl<'a> Node<'a> {
     }
 
     pub fn object(&self) -> Result<&'a Map<String, Json>, ValueError> {
-        self.json
-            .as_object()
-            .ok_or_else(|| self.mismatch("an object"))
+        self.json.as_object().ok_or_else(|| self.mismatch("an object"))
     }
 
     pub fn array(&self) -> Result<Vec<Node<'a>>, ValueError> {
-        let items = self
-            .json
-            .as_array()
-            .ok_or_else(|| self.mismatch("an array"))?;
-        Ok(items
-            .iter()
-            .enumerate()
-            .map(|(i, json)| Node {
-                path: format!("{}[{i}]", self.path),
-                json,
-            })
-            .collect())
+        let items = self.json.as_array().ok_or_else(|| self.mismatch("an array"))?;
+        Ok(items.iter().enumerate().map(|(i, json)| Node { path: format!("{}[{i}]", self.path), json }).collect())
     }
 
     /// The field of an object, if it is there.
     pub fn field(&self, name: &str) -> Result<Option<Node<'a>>, ValueError> {
-        Ok(self.object()?.get(name).map(|json| Node {
-            path: join(&self.path, name),
-            json,
-        }))
+        Ok(self.object()?.get(name).map(|json| Node { path: join(&self.path, name), json }))
     }
 
     /// The field of an object, or the error that it is missing.
     pub fn required(&self, name: &str, expected: &str) -> Result<Node<'a>, ValueError> {
-        self.field(name)?.ok_or_else(|| {
-            self.error(
-                format!("no field `{name}`"),
-                format!("`{name}`: {expected}"),
-            )
-        })
+        self.field(name)?.ok_or_else(|| self.error(format!("no field `{name}`"), format!("one with {expected}")))
     }
 
     /// Refuses fields other than `known`.
     pub fn only(&self, known: &[&str]) -> Result<(), ValueError> {
-        match self
-            .object()?
-            .keys()
-            .find(|key| !known.contains(&key.as_str()))
-        {
+        match self.object()?.keys().find(|key| !known.contains(&key.as_str())) {
             None => Ok(()),
             Some(key) => {
                 let place = join(&self.path, key);
                 let hint = hint(key, known.iter().copied());
-                Err(ValueError::new(
-                    "an unknown field",
-                    format!("a known one.{}", hint.trim_end_matches('.')),
-                )
-                .within(&place))
+                Err(ValueError::new("an unknown field", format!("a known one.{hint}")).within(&place))
             }
         }
     }
@@ -147,16 +105,11 @@ impl<'a> Node<'a> {
     }
 
     pub fn bool(&self) -> Result<bool, ValueError> {
-        self.json
-            .as_bool()
-            .ok_or_else(|| self.mismatch("true or false"))
+        self.json.as_bool().ok_or_else(|| self.mismatch("true or false"))
     }
 
     pub fn f64(&self) -> Result<f64, ValueError> {
-        self.json
-            .as_f64()
-            .filter(|x| x.is_finite())
-            .ok_or_else(|| self.mismatch("a finite number"))
+        self.json.as_f64().filter(|x| x.is_finite()).ok_or_else(|| self.mismatch("a finite number"))
     }
 
     /// A whole number; `2.0` counts as one.
@@ -196,10 +149,7 @@ pub(crate) fn describe(json: &Json) -> String {
         Json::Bool(b) => b.to_string(),
         Json::Number(n) => n.to_string(),
         Json::String(s) if s.chars().count() <= QUOTED => format!("the text {s:?}"),
-        Json::String(s) => format!(
-            "the text {:?}...",
-            s.chars().take(QUOTED).collect::<String>()
-        ),
+        Json::String(s) => format!("the text {:?}...", s.chars().take(QUOTED).collect::<String>()),
         Json::Array(items) => format!("an array of {}", items.len()),
         Json::Object(map) => format!("an object of {} fields", map.len()),
     }
@@ -259,9 +209,7 @@ impl<'de> Visitor<'de> for StrictVisitor {
         let (mut object, mut seen) = (Map::new(), HashSet::new());
         while let Some(key) = map.next_key::<String>()? {
             if !seen.insert(key.clone()) {
-                return Err(de::Error::custom(format!(
-                    "the field `{key}` appears twice in one object"
-                )));
+                return Err(de::Error::custom(format!("the field `{key}` appears twice in one object")));
             }
             object.insert(key, map.next_value::<Strict>()?.0);
         }

@@ -34,20 +34,14 @@ pub enum LightError {
     #[error("the light's direction is zero or not finite; give three finite numbers, not all zero")]
     Direction,
     /// A colour component is negative or not finite.
-    #[error(
-        "the light's colour has a component that is negative or not finite; give three numbers from 0 up"
-    )]
+    #[error("the light's colour has a component that is negative or not finite; give three numbers from 0 up")]
     Color,
 }
 
 impl Default for Light {
     /// A white headlight a little to the right of and above the eye.
     fn default() -> Self {
-        Self {
-            space: LightSpace::Camera,
-            direction: [0.3, 0.4, 1.0],
-            color: [1.0; 3],
-        }
+        Self { space: LightSpace::Camera, direction: [0.3, 0.4, 1.0], color: [1.0; 3] }
     }
 }
 
@@ -85,9 +79,7 @@ impl Light {
                 "world" => LightSpace::World,
                 other => return Err(space.error(format!("`{other}`"), "`camera` or `world`")),
             },
-            direction: node
-                .required("direction", "an array of 3 numbers")?
-                .triple()?,
+            direction: node.required("direction", "an array of 3 numbers")?.triple()?,
             color: node.required("color", "an array of 3 numbers")?.triple()?,
         };
         light.check().map_err(|error| error.within(&node.path))?;
@@ -97,11 +89,7 @@ impl Light {
     /// [`Light::validate`] with the JSON field named.
     pub(crate) fn check(&self) -> Result<(), ValueError> {
         self.validate().map_err(|e| {
-            let field = if e == LightError::Direction {
-                "direction"
-            } else {
-                "color"
-            };
+            let field = if e == LightError::Direction { "direction" } else { "color" };
             ValueError::new(format!("an impossible light ({e})"), "a valid light").within(field)
         })
     }

@@ -24,11 +24,7 @@ pub struct Link {
 impl Link {
     /// The property at the other end.
     pub fn other(&self, end: &Address) -> Option<&Address> {
-        if self.a == *end {
-            Some(&self.b)
-        } else {
-            (self.b == *end).then_some(&self.a)
-        }
+        if self.a == *end { Some(&self.b) } else { (self.b == *end).then_some(&self.a) }
     }
 
     fn joins(&self, a: &Address, b: &Address) -> bool {
@@ -84,16 +80,8 @@ impl Network {
         self.link_shape(a, b)?;
         let (kind_a, kind_b) = (nature(&decl_a), nature(&decl_b));
         if kind_a != kind_b {
-            let link = Box::new(Link {
-                a: a.clone(),
-                b: b.clone(),
-            });
-            return Err(LinkRefusal::Kind {
-                link,
-                kind_a,
-                kind_b,
-            }
-            .into());
+            let link = Box::new(Link { a: a.clone(), b: b.clone() });
+            return Err(LinkRefusal::Kind { link, kind_a, kind_b }.into());
         }
         let value = self.current(a, &decl_a);
         for to in self.linked_with(b) {
@@ -163,33 +151,24 @@ impl Network {
     /// the moment remembers the value for when it is; a placeholder keeps what its file says.
     pub(crate) fn store(&mut self, address: &Address, value: &Value) -> bool {
         let decl = self.declared_if_present(address);
-        let changed = decl
-            .as_ref()
-            .is_some_and(|decl| self.current(address, decl) != *value);
-        let Some(processor) = self
-            .processor_mut(&address.processor)
-            .filter(|p| !p.is_placeholder())
-        else {
+        let changed = decl.as_ref().is_some_and(|decl| self.current(address, decl) != *value);
+        let Some(processor) = self.processor_mut(&address.processor).filter(|p| !p.is_placeholder()) else {
             return false;
         };
         if decl.is_some_and(|decl| decl.default == *value) {
             processor.settings.remove(&address.item);
         } else {
-            processor
-                .settings
-                .insert(address.item.clone(), Setting::Value(value.clone()));
+            processor.settings.insert(address.item.clone(), Setting::Value(value.clone()));
         }
         changed
     }
 
     pub(crate) fn current(&self, address: &Address, decl: &PropertyDecl) -> Value {
-        self.value(&address.processor, &address.item)
-            .unwrap_or_else(|| decl.default.clone())
+        self.value(&address.processor, &address.item).unwrap_or_else(|| decl.default.clone())
     }
 
     pub(crate) fn declared_if_present(&self, address: &Address) -> Option<PropertyDecl> {
-        self.processor(&address.processor)?
-            .property_decl(&address.item)
+        self.processor(&address.processor)?.property_decl(&address.item)
     }
 }
 
@@ -197,28 +176,18 @@ impl Network {
 fn nature(decl: &PropertyDecl) -> String {
     let name = decl.kind.value_name();
     let in_unit = |unit: &str| {
-        if unit.is_empty() {
-            String::new()
-        } else {
-            format!(" in {unit}")
-        }
+        if unit.is_empty() { String::new() } else { format!(" in {unit}") }
     };
     match &decl.kind {
         PropertyKind::Int { unit, .. } | PropertyKind::Float { unit, .. } => {
             format!("{name}{}", in_unit(unit))
         }
-        PropertyKind::Vector {
-            len, unit, whole, ..
-        } => {
+        PropertyKind::Vector { len, unit, whole, .. } => {
             let numbers = if *whole { "whole numbers" } else { "numbers" };
             format!("{name} of {len} {numbers}{}", in_unit(unit))
         }
         PropertyKind::Choice { choices } => {
-            let ids = choices
-                .iter()
-                .map(|choice| choice.id.as_str())
-                .collect::<Vec<_>>()
-                .join(", ");
+            let ids = choices.iter().map(|choice| choice.id.as_str()).collect::<Vec<_>>().join(", ");
             format!("{name} among {ids}")
         }
         PropertyKind::Snippet { slot } | PropertyKind::ShaderText { slot } => {

@@ -10,10 +10,7 @@ const MAX_ID_LENGTH: usize = 64;
 
 /// Whether `id` can name a processor or a port: 1 to 64 ASCII letters, digits, `_` or `-`.
 pub fn is_valid_id(id: &str) -> bool {
-    (1..=MAX_ID_LENGTH).contains(&id.len())
-        && id
-            .bytes()
-            .all(|b| b.is_ascii_alphanumeric() || b == b'_' || b == b'-')
+    (1..=MAX_ID_LENGTH).contains(&id.len()) && id.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_' || b == b'-')
 }
 
 /// Whether `id` can name a property: dot-separated ids, so that parameters of a snippet may be grouped (`shading.ambient`).
@@ -33,10 +30,7 @@ pub struct Address {
 impl Address {
     /// The address `processor.item`; nothing is checked.
     pub fn new(processor: impl Into<String>, item: impl Into<String>) -> Self {
-        Self {
-            processor: processor.into(),
-            item: item.into(),
-        }
+        Self { processor: processor.into(), item: item.into() }
     }
 }
 
@@ -85,21 +79,13 @@ pub fn closest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .filter_map(|candidate| {
             let lower = candidate.to_lowercase();
             let part = name.len() >= 3 && (lower.contains(&name) || name.contains(&lower));
-            let distance = if part {
-                1
-            } else {
-                edit_distance(&name, &lower)
-            };
+            let distance = if part { 1 } else { edit_distance(&name, &lower) };
             (distance <= limit).then_some((distance, candidate))
         })
         .collect();
     ranked.sort();
     ranked.dedup();
-    ranked
-        .into_iter()
-        .take(3)
-        .map(|(_, candidate)| candidate)
-        .collect()
+    ranked.into_iter().take(3).map(|(_, candidate)| candidate).collect()
 }
 
 /// Levenshtein distance in characters.
@@ -130,20 +116,13 @@ pub(crate) fn hint<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>
     match candidates.len() {
         0 => " There are none.".to_owned(),
         n if n <= LISTED => format!(" There are: {}.", quoted(&candidates, ", ")),
-        n => format!(
-            " There are {n}, beginning with {}.",
-            quoted(&candidates[..LISTED], ", ")
-        ),
+        n => format!(" There are {n}, beginning with {}.", quoted(&candidates[..LISTED], ", ")),
     }
 }
 
 /// The names in backticks, joined.
 pub(crate) fn quoted<S: AsRef<str>>(names: &[S], separator: &str) -> String {
-    names
-        .iter()
-        .map(|name| format!("`{}`", name.as_ref()))
-        .collect::<Vec<_>>()
-        .join(separator)
+    names.iter().map(|name| format!("`{}`", name.as_ref())).collect::<Vec<_>>().join(separator)
 }
 
 #[cfg(test)]
@@ -160,10 +139,7 @@ mod tests {
 
     #[test]
     fn addresses_split_at_the_first_dot() {
-        assert_eq!(
-            "a.shading.ambient".parse(),
-            Ok(Address::new("a", "shading.ambient"))
-        );
+        assert_eq!("a.shading.ambient".parse(), Ok(Address::new("a", "shading.ambient")));
         for bad in ["", "a", "a.", ".b", "a b.c", "a..b", "ä.b"] {
             assert!(bad.parse::<Address>().is_err(), "{bad}");
         }

@@ -118,9 +118,7 @@ impl Processor {
 
     /// The declaration of one property.
     pub fn property_decl(&self, property: &str) -> Option<PropertyDecl> {
-        self.property_decls()
-            .into_iter()
-            .find(|decl| decl.id == property)
+        self.property_decls().into_iter().find(|decl| decl.id == property)
     }
 
     /// The value of one property.
@@ -134,10 +132,7 @@ impl Processor {
             return Default::default();
         };
         let mut decls = processor_type.declaration().properties.clone();
-        let mut properties: Properties = decls
-            .iter()
-            .map(|decl| (decl.id.clone(), self.setting(decl)))
-            .collect();
+        let mut properties: Properties = decls.iter().map(|decl| (decl.id.clone(), self.setting(decl))).collect();
         for decl in processor_type.snippet_properties(&properties) {
             if !properties.contains(&decl.id) {
                 properties.insert(decl.id.clone(), self.setting(&decl));
@@ -147,14 +142,28 @@ impl Processor {
         (decls, properties)
     }
 
-    /// What was set for a property if it still satisfies the declaration, else the default.
+    /// The value of a property: what was set, else the default.
     fn setting(&self, decl: &PropertyDecl) -> Value {
-        let set = match self.settings.get(&decl.id) {
-            Some(Setting::Value(value)) if decl.check(value).is_ok() => Some(value.clone()),
-            Some(Setting::Json(json)) => decl.parse(json).ok(),
-            _ => None,
-        };
+        let set = self.settings.get(&decl.id).and_then(|setting| setting.value(decl));
         set.unwrap_or_else(|| decl.default.clone())
+    }
+}
+
+impl Setting {
+    /// The value for a property, if it satisfies the declaration.
+    pub(crate) fn value(&self, decl: &PropertyDecl) -> Option<Value> {
+        match self {
+            Self::Value(value) => decl.check(value).is_ok().then(|| value.clone()),
+            Self::Json(json) => decl.parse(json).ok(),
+        }
+    }
+
+    /// What is stored of it when it is not a value of a property at the moment.
+    pub(crate) fn to_json(&self) -> Json {
+        match self {
+            Self::Value(value) => value.to_json(),
+            Self::Json(json) => json.clone(),
+        }
     }
 }
 
@@ -194,16 +203,12 @@ impl Network {
 
     /// The connections that end at a processor.
     pub fn inputs<'a>(&'a self, processor: &'a str) -> impl Iterator<Item = &'a Connection> {
-        self.connections
-            .iter()
-            .filter(move |connection| connection.to.processor == processor)
+        self.connections.iter().filter(move |connection| connection.to.processor == processor)
     }
 
     /// The connections that begin at a processor.
     pub fn outputs<'a>(&'a self, processor: &'a str) -> impl Iterator<Item = &'a Connection> {
-        self.connections
-            .iter()
-            .filter(move |connection| connection.from.processor == processor)
+        self.connections.iter().filter(move |connection| connection.from.processor == processor)
     }
 
     /// All links.
@@ -224,9 +229,7 @@ impl Network {
         while !waiting.is_empty() {
             let before = order.len();
             waiting.retain(|id| {
-                let ready = self
-                    .inputs(id)
-                    .all(|connection| done.contains(connection.from.processor.as_str()));
+                let ready = self.inputs(id).all(|connection| done.contains(connection.from.processor.as_str()));
                 if ready {
                     done.insert(id);
                     order.push(*id);
@@ -255,9 +258,7 @@ impl Network {
     }
 
     pub(crate) fn processor_mut(&mut self, id: &str) -> Option<&mut Processor> {
-        self.processors
-            .iter_mut()
-            .find(|processor| processor.id == id)
+        self.processors.iter_mut().find(|processor| processor.id == id)
     }
 
     pub(crate) fn ids(&self) -> impl Iterator<Item = &str> {

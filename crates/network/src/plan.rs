@@ -21,27 +21,12 @@ pub(crate) struct Plan {
 
 impl Plan {
     pub fn new(network: &Network, request: &Request) -> Self {
-        let sinks: Vec<&Processor> = network
-            .processors()
-            .filter(|p| is_selected(p, &request.sinks))
-            .collect();
-        let watch: Vec<&Address> = request
-            .watch
-            .iter()
-            .filter(|address| is_outport(network, address))
-            .collect();
-        let mut plan = Self {
-            order: Vec::new(),
-            wanted: BTreeMap::new(),
-            size: BTreeMap::new(),
-        };
+        let sinks: Vec<&Processor> = network.processors().filter(|p| is_selected(p, &request.sinks)).collect();
+        let watch: Vec<&Address> = request.watch.iter().filter(|address| is_outport(network, address)).collect();
+        let mut plan = Self { order: Vec::new(), wanted: BTreeMap::new(), size: BTreeMap::new() };
         plan.collect(network, &sinks, &watch);
-        plan.order = network
-            .order()
-            .into_iter()
-            .filter(|id| plan.wanted.contains_key(*id))
-            .map(str::to_owned)
-            .collect();
+        plan.order =
+            network.order().into_iter().filter(|id| plan.wanted.contains_key(*id)).map(str::to_owned).collect();
         plan.spread_sizes(network, &sinks, &watch, request.size);
         plan
     }
@@ -49,15 +34,9 @@ impl Plan {
     /// Walks upstream from the sinks and the watched outports.
     fn collect(&mut self, network: &Network, sinks: &[&Processor], watch: &[&Address]) {
         for address in watch {
-            self.wanted
-                .entry(address.processor.clone())
-                .or_default()
-                .insert(address.item.clone());
+            self.wanted.entry(address.processor.clone()).or_default().insert(address.item.clone());
         }
-        let ends = sinks
-            .iter()
-            .map(|sink| sink.id())
-            .chain(watch.iter().map(|address| address.processor.as_str()));
+        let ends = sinks.iter().map(|sink| sink.id()).chain(watch.iter().map(|address| address.processor.as_str()));
         let mut stack: Vec<&str> = ends.collect();
         let mut seen: BTreeSet<&str> = BTreeSet::new();
         while let Some(id) = stack.pop() {
@@ -67,23 +46,14 @@ impl Plan {
             self.wanted.entry(id.to_owned()).or_default();
             for connection in network.inputs(id) {
                 let from = &connection.from;
-                self.wanted
-                    .entry(from.processor.clone())
-                    .or_default()
-                    .insert(from.item.clone());
+                self.wanted.entry(from.processor.clone()).or_default().insert(from.item.clone());
                 stack.push(&from.processor);
             }
         }
     }
 
     /// Sizes start at the sinks and travel upstream, against the order.
-    fn spread_sizes(
-        &mut self,
-        network: &Network,
-        sinks: &[&Processor],
-        watch: &[&Address],
-        fixed: Option<[u32; 2]>,
-    ) {
+    fn spread_sizes(&mut self, network: &Network, sinks: &[&Processor], watch: &[&Address], fixed: Option<[u32; 2]>) {
         for sink in sinks {
             if let Some(size) = fixed.or_else(|| own_size(sink)) {
                 self.enlarge(sink.id(), size);
@@ -92,18 +62,9 @@ impl Plan {
         let largest = self.size.values().copied().reduce(max);
         let default = fixed.or(largest).unwrap_or(FALLBACK_SIZE);
         for id in self.order.iter().rev() {
-            let consumers = network
-                .outputs(id)
-                .filter_map(|connection| self.size.get(&connection.to.processor));
-            let watched = watch
-                .iter()
-                .any(|address| address.processor == *id)
-                .then_some(&default);
-            let asked = consumers
-                .chain(watched)
-                .chain(self.size.get(id))
-                .copied()
-                .reduce(max);
+            let consumers = network.outputs(id).filter_map(|connection| self.size.get(&connection.to.processor));
+            let watched = watch.iter().any(|address| address.processor == *id).then_some(&default);
+            let asked = consumers.chain(watched).chain(self.size.get(id)).copied().reduce(max);
             self.size.insert(id.clone(), asked.unwrap_or(default));
         }
     }
@@ -119,9 +80,7 @@ fn max(a: [u32; 2], b: [u32; 2]) -> [u32; 2] {
 }
 
 fn is_selected(processor: &Processor, sinks: &Sinks) -> bool {
-    processor
-        .declaration()
-        .is_some_and(|declaration| declaration.sink)
+    processor.declaration().is_some_and(|declaration| declaration.sink)
         && match sinks {
             Sinks::All => true,
             Sinks::Only(ids) => ids.iter().any(|id| id == processor.id()),
@@ -129,9 +88,7 @@ fn is_selected(processor: &Processor, sinks: &Sinks) -> bool {
 }
 
 fn is_outport(network: &Network, address: &Address) -> bool {
-    let declaration = network
-        .processor(&address.processor)
-        .and_then(Processor::declaration);
+    let declaration = network.processor(&address.processor).and_then(Processor::declaration);
     declaration.is_some_and(|declaration| declaration.outport(&address.item).is_some())
 }
 

@@ -181,12 +181,7 @@ pub struct OutportDecl {
 impl OutportDecl {
     /// An outport.
     pub fn new(id: impl Into<String>, label: impl Into<String>, port_type: PortType) -> Self {
-        Self {
-            id: id.into(),
-            label: label.into(),
-            help: String::new(),
-            port_type,
-        }
+        Self { id: id.into(), label: label.into(), help: String::new(), port_type }
     }
 
     /// Sets the help.

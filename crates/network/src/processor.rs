@@ -29,17 +29,8 @@ pub struct Declaration {
 
 impl Declaration {
     /// A processor type without ports and properties.
-    pub fn new(
-        id: impl Into<String>,
-        label: impl Into<String>,
-        category: impl Into<String>,
-    ) -> Self {
-        Self {
-            id: id.into(),
-            label: label.into(),
-            category: category.into(),
-            ..Self::default()
-        }
+    pub fn new(id: impl Into<String>, label: impl Into<String>, category: impl Into<String>) -> Self {
+        Self { id: id.into(), label: label.into(), category: category.into(), ..Self::default() }
     }
 
     /// Sets the help.

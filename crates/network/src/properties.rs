@@ -23,9 +23,7 @@ pub enum PropertyError {
     #[error("the processor has no property `{0}`; declare it or correct the id where it is read")]
     Missing(String),
     /// Another type.
-    #[error(
-        "the property `{id}` is {found} but was read as {wanted}; read it as what it is declared to be"
-    )]
+    #[error("the property `{id}` is {found} but was read as {wanted}; read it as what it is declared to be")]
     Type {
         /// The property.
         id: String,
@@ -89,15 +87,8 @@ impl Properties {
     /// No such property, one of another type, or a shorter vector.
     pub fn array<const N: usize>(&self, id: &str) -> Result<[f64; N], PropertyError> {
         let wanted = "a longer vector";
-        let short = || PropertyError::Type {
-            id: id.to_owned(),
-            found: "a vector",
-            wanted,
-        };
-        self.vector(id)?
-            .first_chunk::<N>()
-            .copied()
-            .ok_or_else(short)
+        let short = || PropertyError::Type { id: id.to_owned(), found: "a vector", wanted };
+        self.vector(id)?.first_chunk::<N>().copied().ok_or_else(short)
     }
 
     /// The value of any type.
@@ -123,8 +114,6 @@ impl Properties {
 
 impl FromIterator<(String, Value)> for Properties {
     fn from_iter<I: IntoIterator<Item = (String, Value)>>(values: I) -> Self {
-        Self {
-            values: values.into_iter().collect(),
-        }
+        Self { values: values.into_iter().collect() }
     }
 }

@@ -47,11 +47,7 @@ pub struct Choice {
 impl Choice {
     /// A choice with its label and help.
     pub fn new(id: impl Into<String>, label: impl Into<String>, help: impl Into<String>) -> Self {
-        Self {
-            id: id.into(),
-            label: label.into(),
-            help: help.into(),
-        }
+        Self { id: id.into(), label: label.into(), help: help.into() }
     }
 }
 
@@ -150,20 +146,8 @@ pub struct PropertyDecl {
 
 impl PropertyDecl {
     /// A property of the given kind and default, level [`Level::Result`], no help.
-    pub fn new(
-        id: impl Into<String>,
-        label: impl Into<String>,
-        kind: PropertyKind,
-        default: Value,
-    ) -> Self {
-        Self {
-            id: id.into(),
-            label: label.into(),
-            help: String::new(),
-            kind,
-            default,
-            level: Level::Result,
-        }
+    pub fn new(id: impl Into<String>, label: impl Into<String>, kind: PropertyKind, default: Value) -> Self {
+        Self { id: id.into(), label: label.into(), help: String::new(), kind, default, level: Level::Result }
     }
 
     /// A yes/no property.
@@ -173,42 +157,27 @@ impl PropertyDecl {
 
     /// A whole number of any size; narrow it with [`PropertyDecl::int_range`].
     pub fn int(id: impl Into<String>, label: impl Into<String>, default: i64) -> Self {
-        let kind = PropertyKind::Int {
-            range: [i64::MIN, i64::MAX],
-            unit: String::new(),
-        };
+        let kind = PropertyKind::Int { range: [i64::MIN, i64::MAX], unit: String::new() };
         Self::new(id, label, kind, Value::Int(default))
     }
 
     /// A finite number; narrow it with [`PropertyDecl::range`].
     pub fn float(id: impl Into<String>, label: impl Into<String>, default: f64) -> Self {
         let range = [f64::NEG_INFINITY, f64::INFINITY];
-        let kind = PropertyKind::Float {
-            range,
-            unit: String::new(),
-            logarithmic: false,
-        };
+        let kind = PropertyKind::Float { range, unit: String::new(), logarithmic: false };
         Self::new(id, label, kind, Value::Float(default))
     }
 
     /// As many finite numbers as the default has; narrow them with [`PropertyDecl::range`] and [`PropertyDecl::whole`].
     pub fn vector(id: impl Into<String>, label: impl Into<String>, default: &[f64]) -> Self {
         let range = [f64::NEG_INFINITY, f64::INFINITY];
-        let kind = PropertyKind::Vector {
-            len: default.len(),
-            range,
-            unit: String::new(),
-            whole: false,
-        };
+        let kind = PropertyKind::Vector { len: default.len(), range, unit: String::new(), whole: false };
         Self::new(id, label, kind, Value::Vector(default.to_vec()))
     }
 
     /// A picture size in pixels, width and height from 1 to 16384; a sink's render size has the id `size`.
     pub fn size(id: impl Into<String>, label: impl Into<String>, default: [u32; 2]) -> Self {
-        Self::vector(id, label, &default.map(f64::from))
-            .range(1.0, 16384.0)
-            .unit("pixels")
-            .whole()
+        Self::vector(id, label, &default.map(f64::from)).range(1.0, 16384.0).unit("pixels").whole()
     }
 
     /// A colour with straight alpha.
@@ -217,68 +186,31 @@ impl PropertyDecl {
     }
 
     /// One of several choices; the default is the id of one.
-    pub fn choice(
-        id: impl Into<String>,
-        label: impl Into<String>,
-        default: &str,
-        choices: Vec<Choice>,
-    ) -> Self {
-        Self::new(
-            id,
-            label,
-            PropertyKind::Choice { choices },
-            Value::Text(default.to_owned()),
-        )
+    pub fn choice(id: impl Into<String>, label: impl Into<String>, default: &str, choices: Vec<Choice>) -> Self {
+        Self::new(id, label, PropertyKind::Choice { choices }, Value::Text(default.to_owned()))
     }
 
     /// A line of text.
     pub fn text(id: impl Into<String>, label: impl Into<String>, default: &str) -> Self {
-        Self::new(
-            id,
-            label,
-            PropertyKind::Text { multiline: false },
-            Value::Text(default.to_owned()),
-        )
+        Self::new(id, label, PropertyKind::Text { multiline: false }, Value::Text(default.to_owned()))
     }
 
     /// A file to read, none chosen; the processor is not ready before one is. See [`PropertyDecl::saved`] and
     /// [`PropertyDecl::optional`].
     pub fn file(id: impl Into<String>, label: impl Into<String>, extensions: &[&str]) -> Self {
         let extensions = extensions.iter().map(|&e| e.to_owned()).collect();
-        let kind = PropertyKind::File {
-            extensions,
-            save: false,
-            required: true,
-        };
+        let kind = PropertyKind::File { extensions, save: false, required: true };
         Self::new(id, label, kind, Value::Text(String::new()))
     }
 
     /// A transfer function over data values.
-    pub fn transfer_function(
-        id: impl Into<String>,
-        label: impl Into<String>,
-        default: TransferFunction,
-    ) -> Self {
-        Self::new(
-            id,
-            label,
-            PropertyKind::TransferFunction,
-            Value::TransferFunction(default),
-        )
+    pub fn transfer_function(id: impl Into<String>, label: impl Into<String>, default: TransferFunction) -> Self {
+        Self::new(id, label, PropertyKind::TransferFunction, Value::TransferFunction(default))
     }
 
     /// A transfer function over data values and gradient magnitudes.
-    pub fn transfer_function_2d(
-        id: impl Into<String>,
-        label: impl Into<String>,
-        default: TransferFunction2D,
-    ) -> Self {
-        Self::new(
-            id,
-            label,
-            PropertyKind::TransferFunction2D,
-            Value::TransferFunction2D(default),
-        )
+    pub fn transfer_function_2d(id: impl Into<String>, label: impl Into<String>, default: TransferFunction2D) -> Self {
+        Self::new(id, label, PropertyKind::TransferFunction2D, Value::TransferFunction2D(default))
     }
 
     /// A transfer function for each label.
@@ -297,23 +229,14 @@ impl PropertyDecl {
     }
 
     /// The snippet that fills a slot; level [`Level::Shader`].
-    pub fn snippet(
-        id: impl Into<String>,
-        label: impl Into<String>,
-        slot: &str,
-        default: &str,
-    ) -> Self {
-        let kind = PropertyKind::Snippet {
-            slot: slot.to_owned(),
-        };
+    pub fn snippet(id: impl Into<String>, label: impl Into<String>, slot: &str, default: &str) -> Self {
+        let kind = PropertyKind::Snippet { slot: slot.to_owned() };
         Self::new(id, label, kind, Value::Text(default.to_owned())).level(Level::Shader)
     }
 
     /// The user's own source for a slot, empty by default; level [`Level::Shader`].
     pub fn shader_text(id: impl Into<String>, label: impl Into<String>, slot: &str) -> Self {
-        let kind = PropertyKind::ShaderText {
-            slot: slot.to_owned(),
-        };
+        let kind = PropertyKind::ShaderText { slot: slot.to_owned() };
         Self::new(id, label, kind, Value::Text(String::new())).level(Level::Shader)
     }
 
@@ -334,9 +257,7 @@ impl PropertyDecl {
     /// Sets the inclusive range of a float or of a vector's components; nothing for other kinds.
     #[must_use]
     pub fn range(mut self, min: f64, max: f64) -> Self {
-        if let PropertyKind::Float { range, .. } | PropertyKind::Vector { range, .. } =
-            &mut self.kind
-        {
+        if let PropertyKind::Float { range, .. } | PropertyKind::Vector { range, .. } = &mut self.kind {
             *range = [min, max];
         }
         self
@@ -354,9 +275,8 @@ impl PropertyDecl {
     /// Sets the unit of a number or vector; nothing for other kinds.
     #[must_use]
     pub fn unit(mut self, name: impl Into<String>) -> Self {
-        if let PropertyKind::Int { unit, .. }
-        | PropertyKind::Float { unit, .. }
-        | PropertyKind::Vector { unit, .. } = &mut self.kind
+        if let PropertyKind::Int { unit, .. } | PropertyKind::Float { unit, .. } | PropertyKind::Vector { unit, .. } =
+            &mut self.kind
         {
             *unit = name.into();
         }

@@ -48,10 +48,7 @@ impl Registry {
             return Err(RegistryError::Duplicate(id));
         }
         if let Some(problem) = problem(declaration) {
-            return Err(RegistryError::Invalid {
-                processor_type: id,
-                problem,
-            });
+            return Err(RegistryError::Invalid { processor_type: id, problem });
         }
         self.types.insert(id, processor_type);
         Ok(())
@@ -84,20 +81,11 @@ impl Registry {
 
 /// What is wrong with a declaration.
 fn problem(declaration: &Declaration) -> Option<String> {
-    let Declaration {
-        id,
-        inports,
-        outports,
-        properties,
-        ..
-    } = declaration;
+    let Declaration { id, inports, outports, properties, .. } = declaration;
     if !is_valid_id(id) {
         return Some(format!("`{id}` is not a valid id"));
     }
-    let ports = inports
-        .iter()
-        .map(|p| &p.id)
-        .chain(outports.iter().map(|p| &p.id));
+    let ports = inports.iter().map(|p| &p.id).chain(outports.iter().map(|p| &p.id));
     let mut seen = BTreeSet::new();
     for port in ports {
         if !is_valid_id(port) || !seen.insert(port) {
@@ -110,16 +98,10 @@ fn problem(declaration: &Declaration) -> Option<String> {
     let mut seen = BTreeSet::new();
     for property in properties {
         if !is_valid_property_id(&property.id) || !seen.insert(&property.id) {
-            return Some(format!(
-                "the property id `{}` is malformed or occurs twice",
-                property.id
-            ));
+            return Some(format!("the property id `{}` is malformed or occurs twice", property.id));
         }
         if let Err(error) = property.check(&property.default) {
-            return Some(format!(
-                "the default of property `{}`: {error}",
-                property.id
-            ));
+            return Some(format!("the default of property `{}`: {error}", property.id));
         }
     }
     None

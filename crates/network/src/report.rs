@@ -73,11 +73,7 @@ impl fmt::Display for Reason {
                 write!(f, "input `{inport}` is no longer connected")
             }
             Self::Connection { inport, sources } => {
-                let sources = sources
-                    .iter()
-                    .map(Address::to_string)
-                    .collect::<Vec<_>>()
-                    .join(", ");
+                let sources = sources.iter().map(Address::to_string).collect::<Vec<_>>().join(", ");
                 write!(f, "input `{inport}` now comes from {sources}")
             }
             Self::Output(outport) => write!(f, "output `{outport}` is now used"),
@@ -120,11 +116,7 @@ pub struct Run {
 impl Run {
     /// The reasons as one line.
     pub fn why(&self) -> String {
-        self.reasons
-            .iter()
-            .map(Reason::to_string)
-            .collect::<Vec<_>>()
-            .join(", ")
+        self.reasons.iter().map(Reason::to_string).collect::<Vec<_>>().join(", ")
     }
 }
 

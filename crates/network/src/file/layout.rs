@@ -46,10 +46,7 @@ enum Tree {
 }
 
 fn named(Ordered(fields): Ordered) -> Vec<(String, Tree)> {
-    fields
-        .into_iter()
-        .map(|(name, piece)| (name, tree_of(piece)))
-        .collect()
+    fields.into_iter().map(|(name, piece)| (name, tree_of(piece))).collect()
 }
 
 fn tree_of(piece: Piece) -> Tree {
@@ -65,16 +62,11 @@ fn tree(json: &Json) -> Tree {
     match json {
         Json::Array(items) => Tree::Array(items.iter().map(tree).collect()),
         Json::Object(map) => {
-            let mut fields: Vec<(String, Tree)> = map
-                .iter()
-                .map(|(key, value)| (key.clone(), tree(value)))
-                .collect();
+            let mut fields: Vec<(String, Tree)> = map.iter().map(|(key, value)| (key.clone(), tree(value))).collect();
             fields.sort_by(|(a, _), (b, _)| a.cmp(b));
             Tree::Object(fields)
         }
-        Json::Number(number) => {
-            Tree::Leaf(whole(number).map_or_else(|| number.to_string(), |n| n.to_string()))
-        }
+        Json::Number(number) => Tree::Leaf(whole(number).map_or_else(|| number.to_string(), |n| n.to_string())),
         other => Tree::Leaf(other.to_string()),
     }
 }
@@ -96,9 +88,7 @@ fn write(out: &mut String, tree: &Tree, indent: usize, used: usize) {
         Tree::Leaf(text) => out.push_str(text),
         Tree::Object(fields) => break_object(out, fields, indent),
         Tree::Array(items) | Tree::Lines(items) => {
-            break_items(out, ['[', ']'], items.len(), indent, |out, i, inner| {
-                write(out, &items[i], inner, inner)
-            });
+            break_items(out, ['[', ']'], items.len(), indent, |out, i, inner| write(out, &items[i], inner, inner));
         }
     }
 }
@@ -142,13 +132,8 @@ fn one_line(tree: &Tree) -> Option<String> {
             Some(format!("[{}]", items?.join(", ")))
         }
         Tree::Object(fields) => {
-            let field = |(name, value): &(String, Tree)| {
-                Some(format!(
-                    "{}: {}",
-                    Json::from(name.as_str()),
-                    one_line(value)?
-                ))
-            };
+            let field =
+                |(name, value): &(String, Tree)| Some(format!("{}: {}", Json::from(name.as_str()), one_line(value)?));
             let fields: Option<Vec<String>> = fields.iter().map(field).collect();
             Some(format!("{{{}}}", fields?.join(", ")))
         }

@@ -96,10 +96,7 @@ impl Network {
     /// # Errors
     /// Says the file and the line and column (what is not JSON) or the JSON path, what was found and what was expected.
     pub fn load(file: &Path, registry: &Arc<Registry>) -> Result<Loaded, LoadError> {
-        let text = fs::read_to_string(file).map_err(|source| LoadError::Read {
-            file: file.to_owned(),
-            source,
-        })?;
+        let text = fs::read_to_string(file).map_err(|source| LoadError::Read { file: file.to_owned(), source })?;
         Self::from_text(&text, file, registry)
     }
 
@@ -107,58 +104,31 @@ impl Network {
     ///
     /// # Errors
     /// As [`Network::load`].
-    pub fn from_text(
-        text: &str,
-        file: &Path,
-        registry: &Arc<Registry>,
-    ) -> Result<Loaded, LoadError> {
-        let Strict(json) = serde_json::from_str(text.trim_start_matches('\u{feff}'))
-            .map_err(|e| syntax_error(&e, file))?;
+    pub fn from_text(text: &str, file: &Path, registry: &Arc<Registry>) -> Result<Loaded, LoadError> {
+        let Strict(json) =
+            serde_json::from_str(text.trim_start_matches('\u{feff}')).map_err(|e| syntax_error(&e, file))?;
         let root = Node::root(&json);
-        let content = |error| LoadError::Content {
-            file: file.to_owned(),
-            error,
-        };
+        let content = |error| LoadError::Content { file: file.to_owned(), error };
         let version = version(&root).map_err(content)?;
         if version > VERSION {
-            return Err(LoadError::Newer {
-                file: file.to_owned(),
-                found: version,
-            });
+            return Err(LoadError::Newer { file: file.to_owned(), found: version });
         }
-        let folder = std::path::absolute(file)
-            .ok()
-            .and_then(|file| file.parent().map(Path::to_owned));
-        let mut loader = Loader {
-            network: Network::new(registry.clone()),
-            warnings: Vec::new(),
-            folder,
-        };
+        let folder = std::path::absolute(file).ok().and_then(|file| file.parent().map(Path::to_owned));
+        let mut loader = Loader { network: Network::new(registry.clone()), warnings: Vec::new(), folder };
         loader.document(&root).map_err(content)?;
-        Ok(Loaded {
-            network: loader.network,
-            warnings: loader.warnings,
-        })
+        Ok(Loaded { network: loader.network, warnings: loader.warnings })
     }
 }
 
 fn syntax_error(error: &serde_json::Error, file: &Path) -> LoadError {
     let (line, column) = (error.line(), error.column());
     let message = error.to_string();
-    let message = message
-        .strip_suffix(&format!(" at line {line} column {column}"))
-        .unwrap_or(&message)
-        .to_owned();
-    LoadError::Syntax {
-        file: file.to_owned(),
-        line,
-        column,
-        message,
-    }
+    let message = message.strip_suffix(&format!(" at line {line} column {column}")).unwrap_or(&message).to_owned();
+    LoadError::Syntax { file: file.to_owned(), line, column, message }
 }
 
 fn version(root: &Node<'_>) -> Result<i64, ValueError> {
-    let expected = format!("the format version, a whole number from 1 to {VERSION}");
+    let expected = format!("the format version, which is {VERSION} now");
     let node = root.required("rayloom", &expected)?;
     match node.i64()? {
         version if version >= 1 => Ok(version),
@@ -174,15 +144,7 @@ struct Loader {
 
 impl Loader {
     fn document(&mut self, root: &Node<'_>) -> Result<(), ValueError> {
-        root.only(&[
-            "rayloom",
-            "name",
-            "description",
-            "processors",
-            "connections",
-            "links",
-            "visualization",
-        ])?;
+        root.only(&["rayloom", "name", "description", "processors", "connections", "links", "visualization"])?;
         if let Some(name) = root.field("name")? {
             self.network.name = name.string()?.to_owned();
         }
@@ -192,22 +154,13 @@ impl Loader {
         if let Some(visualization) = root.field("visualization")? {
             self.network.visualization = visualization.json.clone();
         }
-        for node in root
-            .required("processors", "an array of processors")?
-            .array()?
-        {
+        for node in root.required("processors", "an array of processors")?.array()? {
             self.processor(&node)?;
         }
-        for node in root
-            .field("connections")?
-            .map_or(Ok(Vec::new()), |node| node.array())?
-        {
+        for node in root.field("connections")?.map_or(Ok(Vec::new()), |node| node.array())? {
             self.connection(&node)?;
         }
-        for node in root
-            .field("links")?
-            .map_or(Ok(Vec::new()), |node| node.array())?
-        {
+        for node in root.field("links")?.map_or(Ok(Vec::new()), |node| node.array())? {
             self.link(&node)?;
         }
         Ok(())
@@ -215,9 +168,7 @@ impl Loader {
 
     fn processor(&mut self, node: &Node<'_>) -> Result<(), ValueError> {
         const FIELDS: [&str; 5] = ["id", "type", "label", "properties", "position"];
-        let type_id = node
-            .required("type", "the id of a processor type")?
-            .string()?;
+        let type_id = node.required("type", "the id of a processor type")?.string()?;
         let processor_type = self.network.registry.get(type_id).cloned();
         let mut processor = Processor {
             id: self.new_id(node)?,
@@ -225,10 +176,7 @@ impl Loader {
             processor_type,
             settings: BTreeMap::new(),
             position: [0.0; 2],
-            label: node
-                .field("label")?
-                .map(|label| label.string().map(str::to_owned))
-                .transpose()?,
+            label: node.field("label")?.map(|label| label.string().map(str::to_owned)).transpose()?,
             extra: serde_json::Map::new(),
         };
         if let Some(position) = node.field("position")? {
@@ -236,15 +184,16 @@ impl Loader {
             processor.position = [numbers[0], numbers[1]];
         }
         if processor.is_placeholder() {
-            let extra = node
-                .object()?
-                .iter()
-                .filter(|(name, _)| !FIELDS.contains(&name.as_str()));
-            processor.extra = extra
-                .map(|(name, json)| (name.clone(), json.clone()))
-                .collect();
+            let extra = node.object()?.iter().filter(|(name, _)| !FIELDS.contains(&name.as_str()));
+            processor.extra = extra.map(|(name, json)| (name.clone(), json.clone())).collect();
             let hint = hint(type_id, self.network.registry.ids());
-            self.warn(node, format!("the processor type `{type_id}` is unknown; `{}` is kept as it is but cannot run.{hint}", processor.id));
+            self.warn(
+                node,
+                format!(
+                    "the processor type `{type_id}` is unknown; `{}` is kept as it is but cannot run.{hint}",
+                    processor.id
+                ),
+            );
         } else {
             node.only(&FIELDS)?;
         }
@@ -262,10 +211,7 @@ impl Loader {
             return Err(node.error(format!("{id:?}"), "1 to 64 letters, digits, `_` or `-`"));
         }
         match self.network.processor(id) {
-            Some(_) => Err(node.error(
-                format!("`{id}` a second time"),
-                "an id that no other processor has",
-            )),
+            Some(_) => Err(node.error(format!("`{id}` a second time"), "an id that no other processor has")),
             None => Ok(id.to_owned()),
         }
     }
@@ -273,54 +219,35 @@ impl Loader {
     /// The declared properties first, because their values decide which others there are.
     fn properties(&mut self, node: &Node<'_>, processor: &mut Processor) -> Result<(), ValueError> {
         let fields = node.object()?;
-        let declared = processor
-            .declaration()
-            .map(|declaration| declaration.properties.clone())
-            .unwrap_or_default();
+        let declared = processor.declaration().map(|declaration| declaration.properties.clone()).unwrap_or_default();
         for decl in &declared {
             if let Some(field) = node.field(&decl.id)? {
-                let value = decl
-                    .parse(field.json)
-                    .map_err(|error| error.within(&field.path))?;
+                let value = decl.parse(field.json).map_err(|error| error.within(&field.path))?;
                 self.keep(processor, decl, value);
             }
         }
         let present = processor.property_decls();
-        for (id, json) in fields
-            .iter()
-            .filter(|(id, _)| !declared.iter().any(|decl| decl.id == **id))
-        {
-            let field = Node {
-                path: format!("{}.{id}", node.path),
-                json,
-            };
-            match present
-                .iter()
-                .find(|decl| decl.id == *id)
-                .map(|decl| (decl, decl.parse(json)))
-            {
+        for (id, json) in fields.iter().filter(|(id, _)| !declared.iter().any(|decl| decl.id == **id)) {
+            let field = Node { path: format!("{}.{id}", node.path), json };
+            match present.iter().find(|decl| decl.id == *id).map(|decl| (decl, decl.parse(json))) {
                 Some((decl, Ok(value))) => self.keep(processor, decl, value),
                 Some((_, Err(error))) => {
                     // Snippets change without their networks: a parameter that no longer fits must not lock a network away.
-                    self.warn(
-                        &field,
-                        format!("{error} It is kept, and the default is used."),
-                    );
-                    processor
-                        .settings
-                        .insert(id.clone(), Setting::Json(json.clone()));
+                    self.warn(&field, format!("{error} It is kept, and the default is used."));
+                    processor.settings.insert(id.clone(), Setting::Json(json.clone()));
                 }
                 None => {
                     if !processor.is_placeholder() {
                         let hint = hint(id, present.iter().map(|decl| decl.id.as_str()));
-                        let Processor {
-                            id: name, type_id, ..
-                        } = &*processor;
-                        self.warn(&field, format!("`{name}` (a {type_id}) has no property `{id}`; it is kept but does nothing.{hint}"));
+                        let Processor { id: name, type_id, .. } = &*processor;
+                        self.warn(
+                            &field,
+                            format!(
+                                "`{name}` (a {type_id}) has no property `{id}`; it is kept but does nothing.{hint}"
+                            ),
+                        );
                     }
-                    processor
-                        .settings
-                        .insert(id.clone(), Setting::Json(json.clone()));
+                    processor.settings.insert(id.clone(), Setting::Json(json.clone()));
                 }
             }
         }
@@ -329,26 +256,17 @@ impl Loader {
 
     fn keep(&self, processor: &mut Processor, decl: &PropertyDecl, value: Value) {
         let value = match (&decl.kind, value) {
-            (PropertyKind::File { .. }, Value::Text(path)) => {
-                Value::Text(resolve(&path, self.folder.as_deref()))
-            }
+            (PropertyKind::File { .. }, Value::Text(path)) => Value::Text(resolve(&path, self.folder.as_deref())),
             (_, value) => value,
         };
-        processor
-            .settings
-            .insert(decl.id.clone(), Setting::Value(value));
+        processor.settings.insert(decl.id.clone(), Setting::Value(value));
     }
 
     fn connection(&mut self, node: &Node<'_>) -> Result<(), ValueError> {
         let text = node.string()?;
-        let ends = text
-            .split_once("->")
-            .and_then(|(from, to)| Some((address(from)?, address(to)?)));
+        let ends = text.split_once("->").and_then(|(from, to)| Some((address(from)?, address(to)?)));
         let Some((from, to)) = ends else {
-            return Err(node.error(
-                format!("{text:?}"),
-                "\"processor.outport -> processor.inport\"",
-            ));
+            return Err(node.error(format!("{text:?}"), "\"processor.outport -> processor.inport\""));
         };
         can_keep(&self.network, &from, &to)
             .map_err(|refusal| misfit(node, text, &refusal, "a connection that fits"))?;
@@ -364,19 +282,12 @@ impl Loader {
         };
         let end = |node: &Node<'_>| {
             let text = node.string()?;
-            let address = address(text)
-                .ok_or_else(|| node.error(format!("{text:?}"), "\"processor.property\""))?;
+            let address = address(text).ok_or_else(|| node.error(format!("{text:?}"), "\"processor.property\""))?;
             match self.network.processor(&address.processor) {
                 Some(_) => Ok(address),
                 None => {
                     let hint = hint(&address.processor, self.network.ids());
-                    Err(node.error(
-                        format!("{text:?}"),
-                        format!(
-                            "a property of a processor of this network.{}",
-                            hint.trim_end_matches('.')
-                        ),
-                    ))
+                    Err(node.error(format!("{text:?}"), format!("a property of a processor of this network.{hint}")))
                 }
             }
         };
@@ -387,36 +298,23 @@ impl Loader {
     fn make_link(&mut self, node: &Node<'_>, a: Address, b: Address) -> Result<(), ValueError> {
         let text = format!("{a} = {b}");
         let refused = |error: EditError| misfit(node, &text, &error, "a link that fits");
-        let absent = [&a, &b]
-            .into_iter()
-            .find(|end| self.network.declared_if_present(end).is_none());
+        let absent = [&a, &b].into_iter().find(|end| self.network.declared_if_present(end).is_none());
         if let Some(end) = absent {
-            self.network
-                .link_shape(&a, &b)
-                .map_err(|refusal| refused(refusal.into()))?;
-            self.warn(
-                node,
-                format!("there is no {end} now; the link is kept but does nothing."),
-            );
+            self.network.link_shape(&a, &b).map_err(|refusal| refused(refusal.into()))?;
+            self.warn(node, format!("there is no {end} now; the link is kept but does nothing."));
             self.network.links.push(Link { a, b });
             return Ok(());
         }
         self.network.can_link(&a, &b).map_err(refused)?;
         let value = |address: &Address| self.network.value(&address.processor, &address.item);
         if value(&a) != value(&b) {
-            self.warn(
-                node,
-                format!("the linked properties differ; {b} takes the value of {a}."),
-            );
+            self.warn(node, format!("the linked properties differ; {b} takes the value of {a}."));
         }
         self.network.link(a, b).map_err(refused)
     }
 
     fn warn(&mut self, node: &Node<'_>, message: String) {
-        self.warnings.push(Warning {
-            path: node.path.clone(),
-            message,
-        });
+        self.warnings.push(Warning { path: node.path.clone(), message });
     }
 }
 
@@ -427,8 +325,5 @@ fn address(text: &str) -> Option<Address> {
 /// The error that something readable does not fit the network, with the reason.
 fn misfit(node: &Node<'_>, text: &str, reason: &dyn fmt::Display, expected: &str) -> ValueError {
     let reason = reason.to_string();
-    node.error(
-        format!("{text:?} ({})", reason.trim_end_matches('.')),
-        expected,
-    )
+    node.error(format!("{text:?} ({})", reason.trim_end_matches('.')), expected)
 }

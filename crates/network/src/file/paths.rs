@@ -10,7 +10,8 @@ pub(crate) fn resolve(stored: &str, folder: Option<&Path>) -> String {
     }
 }
 
-/// A path as it is stored: relative to the folder of the network file if both are below one root, with `/` between the parts.
+/// A path as it is stored: relative to the folder of the network file, with `/` between the parts; absolute if the two have
+/// nothing in common.
 pub(crate) fn relate(used: &str, folder: Option<&Path>) -> String {
     let Some(folder) = folder.filter(|_| !used.is_empty()) else {
         return used.to_owned();
@@ -22,20 +23,15 @@ pub(crate) fn relate(used: &str, folder: Option<&Path>) -> String {
     let from: Vec<Component<'_>> = folder.components().collect();
     let to: Vec<Component<'_>> = path.components().collect();
     let shared = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
-    // Nothing but the root in common: a relative path would break as soon as either is moved.
-    if shared <= 1 && from.len() > 1 {
+    let levels = from.len() - shared;
+    // Relative paths let a network move together with its data. What shares no folder does not move together.
+    if shared == 0 || (shared == 1 && levels > 1) {
         return text(&path);
     }
-    let up = std::iter::repeat_n("..".to_owned(), from.len() - shared);
-    let down = to[shared..]
-        .iter()
-        .map(|part| part.as_os_str().to_string_lossy().into_owned());
+    let up = std::iter::repeat_n("..".to_owned(), levels);
+    let down = to[shared..].iter().map(|part| part.as_os_str().to_string_lossy().into_owned());
     let relative = up.chain(down).collect::<Vec<_>>().join("/");
-    if relative.is_empty() {
-        ".".to_owned()
-    } else {
-        relative
-    }
+    if relative.is_empty() { ".".to_owned() } else { relative }
 }
 
 /// Without `.` and `name/..`, by the text alone.
@@ -44,9 +40,7 @@ fn tidy(path: &Path) -> PathBuf {
     for part in path.components() {
         match part {
             Component::CurDir => {}
-            Component::ParentDir
-                if matches!(tidy.components().next_back(), Some(Component::Normal(_))) =>
-            {
+            Component::ParentDir if matches!(tidy.components().next_back(), Some(Component::Normal(_))) => {
                 tidy.pop();
             }
             Component::ParentDir if tidy.has_root() => {}
@@ -77,11 +71,7 @@ mod tests {
             assert_eq!(relate(used, folder), stored);
             assert_eq!(
                 resolve(stored, folder),
-                if used.is_empty() {
-                    String::new()
-                } else {
-                    text(&tidy(Path::new(used)))
-                }
+                if used.is_empty() { String::new() } else { text(&tidy(Path::new(used))) }
             );
         }
         assert_eq!(resolve("../../../../../etc", folder), "/etc");

@@ -1,6 +1,5 @@
 //! Writing a network file.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -11,8 +10,8 @@ use thiserror::Error;
 use super::VERSION;
 use super::layout::{Ordered, Piece, lay_out};
 use super::paths::relate;
-use crate::network::{Network, Processor, Setting};
-use crate::property::{PropertyDecl, PropertyKind};
+use crate::network::{Network, Processor};
+use crate::property::PropertyKind;
 use crate::value::Value;
 
 /// A network file that could not be written; the file that was there before is untouched.
@@ -31,17 +30,10 @@ impl Network {
     /// # Errors
     /// The folder or file cannot be written.
     pub fn save(&self, file: &Path) -> Result<(), SaveError> {
-        let fail = |source| SaveError {
-            file: file.to_owned(),
-            source,
-        };
+        let fail = |source| SaveError { file: file.to_owned(), source };
         // Through a symbolic link, the file behind it is replaced and the link stays.
-        let target = fs::canonicalize(file)
-            .or_else(|_| std::path::absolute(file))
-            .map_err(fail)?;
-        let folder = target
-            .parent()
-            .ok_or_else(|| fail(io::Error::from(io::ErrorKind::IsADirectory)))?;
+        let target = fs::canonicalize(file).or_else(|_| std::path::absolute(file)).map_err(fail)?;
+        let folder = target.parent().ok_or_else(|| fail(io::Error::from(io::ErrorKind::IsADirectory)))?;
         let text = self.to_text(Some(folder));
         write_whole(&target, folder, text.as_bytes()).map_err(fail)
     }
@@ -55,21 +47,12 @@ impl Network {
                 document.push_json(key, text.as_str());
             }
         }
-        let processors = self
-            .processors
-            .iter()
-            .map(|processor| Piece::Object(write_processor(processor, folder)));
+        let processors = self.processors.iter().map(|processor| Piece::Object(write_processor(processor, folder)));
         document.push("processors", Piece::List(processors.collect()));
-        let connections = self
-            .connections
-            .iter()
-            .map(|connection| Piece::Plain(connection.to_string().into()));
+        let connections = self.connections.iter().map(|connection| Piece::Plain(connection.to_string().into()));
         document.push("connections", Piece::List(connections.collect()));
         if !self.links.is_empty() {
-            let links = self
-                .links
-                .iter()
-                .map(|link| Piece::Plain(vec![link.a.to_string(), link.b.to_string()].into()));
+            let links = self.links.iter().map(|link| Piece::Plain(vec![link.a.to_string(), link.b.to_string()].into()));
             document.push("links", Piece::List(links.collect()));
         }
         if !self.visualization.is_null() {
@@ -101,27 +84,21 @@ fn write_processor(processor: &Processor, folder: Option<&Path>) -> Ordered {
     fields
 }
 
-/// What was set and differs from the default; and what is not a property at the moment, as it is.
+/// What was set and differs from the default; and what is no value of a property at the moment, as it is.
 fn write_properties(processor: &Processor, folder: Option<&Path>) -> Map<String, Json> {
-    let (decls, properties) = processor.resolve();
-    let decls: BTreeMap<&str, &PropertyDecl> =
-        decls.iter().map(|decl| (decl.id.as_str(), decl)).collect();
+    let decls = processor.property_decls();
     let mut out = Map::new();
     for (id, setting) in &processor.settings {
-        let value = match (decls.get(id.as_str()), properties.get(id)) {
-            (Some(decl), Some(value)) if *value == decl.default => continue,
-            (Some(decl), Some(Value::Text(path)))
-                if matches!(decl.kind, PropertyKind::File { .. }) =>
-            {
-                relate(path, folder).into()
+        let decl = decls.iter().find(|decl| decl.id == *id);
+        let json = match decl.and_then(|decl| Some((decl, setting.value(decl)?))) {
+            Some((decl, value)) if value == decl.default => continue,
+            Some((decl, Value::Text(path))) if matches!(decl.kind, PropertyKind::File { .. }) => {
+                relate(&path, folder).into()
             }
-            (Some(_), Some(value)) => value.to_json(),
-            _ => match setting {
-                Setting::Value(value) => value.to_json(),
-                Setting::Json(json) => json.clone(),
-            },
+            Some((_, value)) => value.to_json(),
+            None => setting.to_json(),
         };
-        out.insert(id.clone(), value);
+        out.insert(id.clone(), json);
     }
     out
 }

@@ -1,0 +1,252 @@
+//! The evaluator runs what must run, and nothing else.
+
+use crate::fake::{Counter, pipeline};
+use rayloom_network::*;
+
+/// A network with its evaluator.
+struct Bench {
+    network: Network,
+    evaluator: Evaluator<Counter>,
+    backend: Counter,
+}
+
+impl Bench {
+    fn new(network: Network) -> Self {
+        Self { network, evaluator: Evaluator::new(), backend: Counter::default() }
+    }
+
+    fn evaluate(&mut self) -> Report {
+        self.with(&Request::default())
+    }
+
+    fn with(&mut self, request: &Request) -> Report {
+        self.evaluator.evaluate(&self.network, &mut self.backend, request)
+    }
+
+    fn set(&mut self, processor: &str, property: &str, value: Value) {
+        self.network.set_property(processor, property, value).unwrap();
+    }
+}
+
+fn watch(processor: &str, outport: &str) -> Request {
+    Request { watch: vec![Address::new(processor, outport)], ..Request::default() }
+}
+
+/// One line a run: who, at which level, why.
+fn log(report: &Report) -> String {
+    report.runs.iter().map(|run| format!("{} [{}]: {}\n", run.processor, run.level, run.why())).collect()
+}
+
+#[test]
+fn everything_runs_once_and_then_nothing() {
+    let mut bench = Bench::new(pipeline());
+    let first = bench.evaluate();
+    assert_eq!(first.ran(), ["data", "proxy", "view", "filter", "canvas"]);
+    assert!(first.is_complete());
+    assert!(bench.evaluate().runs.is_empty());
+    let shown: Vec<_> =
+        bench.evaluator.inputs(&bench.network, "canvas", "image").map(|made| made.how.clone()).collect();
+    assert_eq!(shown, ["filter(view(proxy(data()), data()))"]);
+}
+
+#[test]
+fn a_burst_of_edits_is_one_evaluation_and_a_value_set_back_is_none() {
+    let mut bench = Bench::new(pipeline());
+    bench.evaluate();
+    for rate in [2.0, 3.0, 4.0] {
+        bench.set("view", "rate", Value::Float(rate));
+    }
+    bench.set("view", "early", Value::Bool(false));
+    let report = bench.evaluate();
+    insta::assert_snapshot!(log(&report), @r"
+    view [shader]: view.rate changed, view.early changed
+    filter [result]: input `image` changed (view ran)
+    canvas [result]: input `image` changed (filter ran)
+    ");
+    bench.set("view", "rate", Value::Float(9.0));
+    bench.set("view", "rate", Value::Float(4.0));
+    assert!(bench.evaluate().runs.is_empty());
+    assert_eq!(bench.backend.runs["data"], 1);
+    assert_eq!(bench.backend.runs["view"], 2);
+}
+
+#[test]
+fn what_reaches_no_sink_never_runs_until_it_is_watched() {
+    let mut bench = Bench::new(pipeline());
+    bench.network.add("preview", "side").unwrap();
+    bench.network.connect(("data", "volume"), ("side", "volume")).unwrap();
+    assert!(!bench.evaluate().ran().contains(&"side"));
+    let report = bench.with(&watch("side", "image"));
+    insta::assert_snapshot!(log(&report), @"side [ports]: first run");
+    assert_eq!(bench.backend.sizes["side"], [640, 480]);
+    // Looking away and back costs nothing.
+    assert!(bench.evaluate().runs.is_empty());
+    assert!(bench.evaluator.output("side", "image").is_none());
+    assert!(bench.with(&watch("side", "image")).runs.is_empty());
+    assert!(bench.evaluator.output("side", "image").is_some());
+}
+
+#[test]
+fn an_outport_is_computed_only_once_it_is_used() {
+    let mut bench = Bench::new(pipeline());
+    bench.evaluate();
+    assert!(bench.evaluator.output("view", "depth").is_none());
+    let report = bench.with(&watch("view", "depth"));
+    insta::assert_snapshot!(log(&report), @r"
+    view [ports]: output `depth` is now used
+    filter [result]: input `image` changed (view ran)
+    canvas [result]: input `image` changed (filter ran)
+    ");
+    assert!(bench.evaluator.output("view", "depth").is_some());
+    assert!(bench.evaluate().runs.is_empty());
+}
+
+#[test]
+fn a_failure_stays_on_its_processor_and_is_not_retried_before_a_change() {
+    let mut network = pipeline();
+    network.add("canvas", "other").unwrap();
+    network.connect(("view", "image"), ("other", "image")).unwrap();
+    let mut bench = Bench::new(network);
+    bench.set("filter", "fail", Value::Text("the kernel has no size".into()));
+    let report = bench.evaluate();
+    assert_eq!(report.ran(), ["data", "proxy", "view", "filter", "other"]);
+    assert_eq!(report.failed["filter"].message, "the kernel has no size");
+    insta::assert_snapshot!(report.not_ready["canvas"].join("\n"), @"canvas waits for filter.image_out; filter failed: the kernel has no size");
+    assert_eq!(report.not_ready.len(), 1);
+
+    let again = bench.evaluate();
+    assert!(again.runs.is_empty());
+    assert_eq!(again.failed, report.failed);
+    assert_eq!(again.not_ready, report.not_ready);
+
+    bench.set("filter", "fail", Value::Text(String::new()));
+    assert_eq!(bench.evaluate().ran(), ["filter", "canvas"]);
+}
+
+#[test]
+fn a_processor_that_gives_nothing_fails() {
+    let mut bench = Bench::new(pipeline());
+    bench.backend.silent = true;
+    let report = bench.evaluate();
+    insta::assert_snapshot!(report.failed["data"], @"it ran but gave nothing on `volume`");
+    insta::assert_snapshot!(report.not_ready["view"].join("\n"), @"view waits for data.volume; data failed: it ran but gave nothing on `volume`");
+}
+
+#[test]
+fn a_condition_on_data_keeps_the_connection_and_says_why() {
+    let mut bench = Bench::new(pipeline());
+    bench.evaluate();
+    bench.set("data", "channels", Value::Int(3));
+    let report = bench.evaluate();
+    assert_eq!(report.ran(), ["data", "proxy"]);
+    insta::assert_snapshot!(report.not_ready["canvas"].join("\n"), @"canvas waits for filter.image_out; filter waits for view.image; view: input `volume` needs a volume with one channel");
+    bench.set("data", "channels", Value::Int(1));
+    assert_eq!(bench.evaluate().ran(), ["data", "proxy", "view", "filter", "canvas"]);
+}
+
+#[test]
+fn a_connection_cut_and_made_again_costs_nothing() {
+    let mut bench = Bench::new(pipeline());
+    bench.evaluate();
+    assert!(bench.network.disconnect(("view", "image"), ("filter", "image")));
+    let report = bench.evaluate();
+    assert!(report.runs.is_empty());
+    insta::assert_snapshot!(report.not_ready["canvas"].join("\n"), @"canvas waits for filter.image_out; filter: input `image` is not connected");
+    bench.network.connect(("view", "image"), ("filter", "image")).unwrap();
+    assert!(bench.evaluate().runs.is_empty());
+}
+
+#[test]
+fn a_change_of_what_feeds_an_inport_is_named() {
+    let mut bench = Bench::new(pipeline());
+    bench.evaluate();
+    bench.network.disconnect(("proxy", "geometry"), ("view", "geometry"));
+    insta::assert_snapshot!(log(&bench.evaluate()).lines().next().unwrap(), @"view [ports]: input `geometry` is no longer connected");
+    bench.network.disconnect(("view", "image"), ("filter", "image"));
+    bench.network.add("preview", "side").unwrap();
+    bench.network.connect(("data", "volume"), ("side", "volume")).unwrap();
+    bench.network.connect(("side", "image"), ("filter", "image")).unwrap();
+    insta::assert_snapshot!(log(&bench.evaluate()), @r"
+    side [ports]: first run
+    filter [ports]: input `image` now comes from side.image
+    canvas [result]: input `image` changed (filter ran)
+    ");
+}
+
+#[test]
+fn the_render_size_travels_upstream_and_the_largest_wins() {
+    let mut bench = Bench::new(pipeline());
+    bench.evaluate();
+    bench.set("canvas", "size", Value::Vector(vec![512.0, 512.0]));
+    insta::assert_snapshot!(log(&bench.evaluate()), @r"
+    view [result]: size changed to 512x512
+    filter [result]: input `image` changed (view ran)
+    canvas [result]: canvas.size changed, input `image` changed (filter ran)
+    ");
+    bench.network.add("canvas", "wide").unwrap();
+    bench.set("wide", "size", Value::Vector(vec![900.0, 100.0]));
+    bench.network.connect(("view", "image"), ("wide", "image")).unwrap();
+    bench.evaluate();
+    assert_eq!(bench.backend.sizes["view"], [900, 512]);
+    assert_eq!(bench.backend.sizes["filter"], [512, 512]);
+    bench.with(&Request { size: Some([64, 32]), ..Request::default() });
+    assert_eq!(bench.backend.sizes["view"], [64, 32]);
+    assert_eq!(bench.backend.runs["data"], 1);
+}
+
+#[test]
+fn one_sink_can_be_asked_for() {
+    let mut network = pipeline();
+    network.add("canvas", "other").unwrap();
+    network.connect(("view", "image"), ("other", "image")).unwrap();
+    let mut bench = Bench::new(network);
+    let report = bench.with(&Request { sinks: Sinks::Only(vec!["other".into()]), ..Request::default() });
+    assert_eq!(report.ran(), ["data", "proxy", "view", "other"]);
+    assert_eq!(bench.evaluate().ran(), ["filter", "canvas"]);
+}
+
+#[test]
+fn parameters_of_a_chosen_snippet_are_resolved() {
+    let mut bench = Bench::new(pipeline());
+    bench.evaluate();
+    bench.set("view", "shading", Value::Text("phong".into()));
+    bench.set("view", "shading.ambient", Value::Float(0.5));
+    insta::assert_snapshot!(log(&bench.evaluate()).lines().next().unwrap(), @"view [shader]: view.shading changed, the parameters of view changed");
+    bench.set("view", "shading.ambient", Value::Float(0.6));
+    insta::assert_snapshot!(log(&bench.evaluate()).lines().next().unwrap(), @"view [result]: view.shading.ambient changed");
+    // Away and back: the parameter is where it was.
+    bench.set("view", "shading", Value::Text("flat".into()));
+    assert_eq!(bench.network.value("view", "shading.ambient"), None);
+    bench.set("view", "shading", Value::Text("phong".into()));
+    assert_eq!(bench.network.value("view", "shading.ambient"), Some(Value::Float(0.6)));
+    assert!(bench.evaluate().runs.is_empty());
+}
+
+#[test]
+fn a_run_can_be_asked_for_and_a_renamed_processor_keeps_its_result() {
+    let mut bench = Bench::new(pipeline());
+    bench.evaluate();
+    bench.evaluator.invalidate("data", Level::Parameters, "the file changed on disk");
+    let report = bench.evaluate();
+    insta::assert_snapshot!(log(&report).lines().next().unwrap(), @"data [parameters]: the file changed on disk");
+    assert_eq!(report.runs.len(), 5);
+    bench.network.rename("view", "rays").unwrap();
+    bench.evaluator.rename("view", "rays");
+    assert!(bench.evaluate().runs.is_empty());
+}
+
+#[test]
+fn layers_arrive_in_the_order_of_their_connections() {
+    let mut network = pipeline();
+    network.add("compositor", "over").unwrap();
+    network.add("preview", "side").unwrap();
+    network.connect(("data", "volume"), ("side", "volume")).unwrap();
+    network.disconnect(("filter", "image_out"), ("canvas", "image"));
+    network.connect(("side", "image"), ("over", "layers")).unwrap();
+    network.connect(("view", "image"), ("over", "layers")).unwrap();
+    network.connect(("over", "image"), ("canvas", "image")).unwrap();
+    let mut bench = Bench::new(network);
+    assert!(!bench.evaluate().ran().contains(&"filter"));
+    let how = &bench.evaluator.output("over", "image").unwrap().how;
+    assert_eq!(how, "over(side(data()), view(proxy(data()), data()))");
+}

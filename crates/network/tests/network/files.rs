@@ -1,0 +1,161 @@
+//! Network files: what is kept, what is left out, and what a failed save leaves behind.
+
+use std::fs;
+use std::path::Path;
+
+use rayloom_network::*;
+use serde_json::json;
+
+use crate::fake::{pipeline, registry, registry_without};
+
+fn load(text: &str) -> Loaded {
+    Network::from_text(text, Path::new("/nets/some.json"), &registry()).unwrap()
+}
+
+fn warnings(loaded: &Loaded) -> String {
+    loaded.warnings.iter().map(|warning| format!("{warning}\n")).collect()
+}
+
+#[test]
+fn version_1_loads_as_it_always_did_and_saves_byte_for_byte() {
+    let text = include_str!("../fixtures/v1.json");
+    let loaded = load(text);
+    assert_eq!(loaded.warnings, []);
+    let network = loaded.network;
+    assert_eq!(network.value("head", "file"), Some(Value::Text("/data/head.nrrd".into())));
+    assert_eq!(network.value("view", "shading.ambient"), Some(Value::Float(0.4)));
+    assert_eq!(network.value("view", "shading.shininess"), Some(Value::Float(20.0)));
+    assert_eq!(network.processor("head").unwrap().label(), Some("The head"));
+    assert_eq!(network.connections().len(), 7);
+    assert_eq!(network.to_text(Some(Path::new("/nets"))), text);
+}
+
+#[test]
+fn defaults_are_left_out() {
+    let mut network = pipeline();
+    network.set_property("view", "rate", Value::Float(2.0)).unwrap();
+    network.set_property("view", "rate", Value::Float(1.0)).unwrap();
+    insta::assert_snapshot!(network.to_text(None), @r#"
+    {
+      "rayloom": 1,
+      "processors": [
+        {"id": "data", "type": "generator"},
+        {"id": "proxy", "type": "proxy"},
+        {"id": "view", "type": "traversal"},
+        {"id": "filter", "type": "filter"},
+        {"id": "canvas", "type": "canvas"}
+      ],
+      "connections": [
+        "data.volume -> proxy.volume",
+        "data.volume -> view.volume",
+        "proxy.geometry -> view.geometry",
+        "view.image -> filter.image",
+        "filter.image_out -> canvas.image"
+      ]
+    }
+    "#);
+}
+
+#[test]
+fn unknown_types_are_kept_whole() {
+    let text = r#"{
+  "rayloom": 1,
+  "processors": [
+    {"id": "data", "type": "generator"},
+    {
+      "id": "magic",
+      "type": "preview",
+      "properties": {"rate": 2, "spell": {"a": [1, 2], "b": null}},
+      "position": [1, 2],
+      "future": true
+    },
+    {"id": "canvas", "type": "canvas"}
+  ],
+  "connections": [
+    "data.volume -> magic.anything",
+    "magic.image -> canvas.image"
+  ],
+  "links": [
+    ["magic.rate", "canvas.size"]
+  ]
+}
+"#;
+    let loaded = Network::from_text(text, Path::new("x.json"), &registry_without("preview")).unwrap();
+    insta::assert_snapshot!(warnings(&loaded), @r"
+    processors[1]: the processor type `preview` is unknown; `magic` is kept as it is but cannot run. There are: `canvas`, `compositor`, `filter`, `generator`, `proxy`, `source`, `traversal`.
+    links[0]: there is no magic.rate now; the link is kept but does nothing.
+    ");
+    let mut network = loaded.network;
+    assert_eq!(network.to_text(None), text);
+    assert!(network.processor("magic").unwrap().is_placeholder());
+    insta::assert_snapshot!(network.set_from_json("magic", "rate", &json!(1)).unwrap_err(), @"`magic` is of the unknown type `preview`, so its properties cannot be changed.");
+    insta::assert_snapshot!(format!("{:?}", readiness(&network, "canvas")), @r#"NotReady(["canvas waits for magic.image; magic: its type `preview` is not known here"])"#);
+}
+
+#[test]
+fn unknown_properties_are_kept_with_a_warning() {
+    let text = r#"{
+  "rayloom": 1,
+  "processors": [
+    {
+      "id": "view",
+      "type": "traversal",
+      "properties": {"rtae": 3, "shading": "phong", "shading.ambient": 7, "shading.gloss": [1]}
+    }
+  ],
+  "connections": []
+}
+"#;
+    let loaded = load(text);
+    insta::assert_snapshot!(warnings(&loaded), @r"
+    processors[0].properties.rtae: `view` (a traversal) has no property `rtae`; it is kept but does nothing. Did you mean `rate`?
+    processors[0].properties.shading.ambient: found 7, expected a number from 0 to 1. It is kept, and the default is used.
+    processors[0].properties.shading.gloss: `view` (a traversal) has no property `shading.gloss`; it is kept but does nothing. Did you mean `shading`?
+    ");
+    assert_eq!(loaded.network.value("view", "shading.ambient"), Some(Value::Float(0.2)));
+    assert_eq!(loaded.network.to_text(None), text);
+}
+
+#[test]
+fn linked_properties_that_differ_are_made_equal_with_a_warning() {
+    let loaded = load(
+        r#"{"rayloom": 1, "processors": [
+            {"id": "a", "type": "preview", "properties": {"rate": 2}}, {"id": "b", "type": "preview"}
+        ], "links": [["a.rate", "b.rate"]]}"#,
+    );
+    insta::assert_snapshot!(warnings(&loaded), @"links[0]: the linked properties differ; b.rate takes the value of a.rate.");
+    assert_eq!(loaded.network.value("b", "rate"), Some(Value::Float(2.0)));
+}
+
+#[test]
+fn saving_is_atomic_and_paths_are_relative() {
+    let folder = tempfile::tempdir().unwrap();
+    let nets = folder.path().join("nets");
+    fs::create_dir(&nets).unwrap();
+    let file = nets.join("n.json");
+    let mut network = Network::new(registry());
+    network.add("source", "source").unwrap();
+    let data = folder.path().join("data").join("head.nrrd");
+    network.set_property("source", "file", Value::Text(data.to_string_lossy().into())).unwrap();
+    network.save(&file).unwrap();
+    let text = fs::read_to_string(&file).unwrap();
+    assert!(text.contains(r#""file": "../data/head.nrrd""#), "{text}");
+    let again = Network::load(&file, &registry()).unwrap().network;
+    assert_eq!(again.value("source", "file"), network.value("source", "file"));
+    again.save(&file).unwrap();
+    assert_eq!(fs::read_to_string(&file).unwrap(), text);
+    assert_eq!(fs::read_dir(&nets).unwrap().count(), 1, "nothing is left beside the file");
+
+    let missing = nets.join("none").join("n.json");
+    let error = network.save(&missing).unwrap_err().to_string();
+    assert!(error.contains("none") && error.contains("cannot be saved"), "{error}");
+    // A folder in place of the file: refused, and nothing is left behind.
+    assert!(network.save(&nets).is_err());
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn a_missing_file_is_named() {
+    let error = Network::load(Path::new("/nowhere/x.json"), &registry()).unwrap_err();
+    insta::assert_snapshot!(error, @"/nowhere/x.json: the network cannot be read: No such file or directory (os error 2).");
+}
