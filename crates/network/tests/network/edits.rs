@@ -90,8 +90,14 @@ fn links_carry_values_through_chains_and_rings() {
     assert!(n.unlink(rate("b"), rate("a")) && n.unlink(rate("c"), rate("a")));
     n.set_property("a", "rate", Value::Float(1.0)).unwrap();
     assert_eq!(n.value("b", "rate"), Some(Value::Float(3.0)));
-    n.remove("c").unwrap();
-    assert!(n.links().is_empty());
+    n.link(rate("c"), rate("d")).unwrap();
+    n.link(rate("d"), rate("a")).unwrap();
+    n.unlink(rate("b"), rate("c"));
+    n.link(rate("a"), rate("b")).unwrap();
+    assert_eq!(n.set_property("c", "rate", Value::Float(0.5)).unwrap().len(), 4);
+    assert_eq!(n.value("b", "rate"), Some(Value::Float(0.5)));
+    n.remove("d").unwrap();
+    assert_eq!(n.links().len(), 1);
 }
 
 #[test]

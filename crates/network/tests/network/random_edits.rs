@@ -8,34 +8,30 @@ use rayloom_network::*;
 use crate::fake::{Counter, registry};
 
 const TYPES: [&str; 8] = ["source", "generator", "proxy", "traversal", "preview", "filter", "compositor", "canvas"];
-const OUTPORTS: [&str; 5] = ["volume", "geometry", "image", "depth", "image_out"];
-const INPORTS: [&str; 4] = ["volume", "geometry", "image", "layers"];
-const PROPERTIES: [&str; 10] =
-    ["file", "precision", "rate", "camera", "tint", "shading", "shading.ambient", "size", "early", "extent"];
 
 #[derive(Clone, Debug)]
 enum Edit {
     Add(usize),
     Remove(usize),
     Rename(usize),
-    Connect(usize, usize, usize, usize),
+    Connect(usize),
     Disconnect(usize),
-    Set(usize, usize, f64),
-    Link(usize, usize, usize),
+    Set(usize, f64),
+    Link(usize),
     Unlink(usize),
     Move(usize, f64),
 }
 
 fn edit() -> impl Strategy<Value = Edit> {
-    let (p, o, i, q) = (0..12_usize, 0..OUTPORTS.len(), 0..INPORTS.len(), 0..PROPERTIES.len());
+    let (p, k) = (0..12_usize, 0..100_000_usize);
     prop_oneof![
         5 => (0..TYPES.len()).prop_map(Edit::Add),
         1 => p.clone().prop_map(Edit::Remove),
         1 => p.clone().prop_map(Edit::Rename),
-        40 => (p.clone(), o, p.clone(), i).prop_map(|(a, o, b, i)| Edit::Connect(a, o, b, i)),
+        30 => k.clone().prop_map(Edit::Connect),
         1 => p.clone().prop_map(Edit::Disconnect),
-        10 => (p.clone(), q.clone(), -3.0..20.0_f64).prop_map(|(p, q, x)| Edit::Set(p, q, x)),
-        10 => (p.clone(), p.clone(), q).prop_map(|(a, b, q)| Edit::Link(a, b, q)),
+        20 => (k.clone(), -3.0..20.0_f64).prop_map(|(k, x)| Edit::Set(k, x)),
+        10 => k.prop_map(Edit::Link),
         1 => p.clone().prop_map(Edit::Unlink),
         2 => (p, any::<f64>()).prop_map(|(p, x)| Edit::Move(p, x)),
     ]
@@ -64,14 +60,26 @@ fn apply(network: &mut Network, edit: &Edit) {
         Edit::Add(t) => network.add(TYPES[*t], &network.free_id(TYPES[*t])).unwrap(),
         Edit::Remove(p) => drop(network.remove(&id(p))),
         Edit::Rename(p) => drop(network.rename(&id(p), &network.free_id("named"))),
-        Edit::Connect(a, o, b, i) => drop(network.connect((id(a), OUTPORTS[*o]), (id(b), INPORTS[*i]))),
+        Edit::Connect(k) => {
+            if let Some((from, to)) = pick(fitting(network), *k) {
+                drop(network.connect(from, to));
+            }
+        }
         Edit::Disconnect(c) => {
             if let Some(connection) = network.connections().get(*c).cloned() {
                 assert!(network.disconnect(connection.from, connection.to));
             }
         }
-        Edit::Set(p, q, x) => drop(network.set_property(&id(p), PROPERTIES[*q], value(PROPERTIES[*q], *x))),
-        Edit::Link(a, b, q) => drop(network.link((id(a), PROPERTIES[*q]), (id(b), PROPERTIES[*q]))),
+        Edit::Set(k, x) => {
+            if let Some(Address { processor, item }) = pick(properties(network), *k) {
+                drop(network.set_property(&processor, &item, value(&item, *x)));
+            }
+        }
+        Edit::Link(k) => {
+            if let Some((a, b)) = pick(alike(network), *k) {
+                drop(network.link(a, b));
+            }
+        }
         Edit::Unlink(l) => {
             if let Some(link) = network.links().get(*l).cloned() {
                 assert!(network.unlink(link.b, link.a));
@@ -79,6 +87,39 @@ fn apply(network: &mut Network, edit: &Edit) {
         }
         Edit::Move(p, x) => drop(network.set_position(&id(p), [*x, 0.5])),
     }
+}
+
+fn pick<T>(mut candidates: Vec<T>, k: usize) -> Option<T> {
+    (!candidates.is_empty()).then(|| candidates.swap_remove(k % candidates.len()))
+}
+
+/// Every outport with every inport that takes what it gives, whether or not they may be connected now.
+fn fitting(network: &Network) -> Vec<(Address, Address)> {
+    let mut pairs = Vec::new();
+    for (source, target) in network.processors().flat_map(|a| network.processors().map(move |b| (a, b))) {
+        let (Some(from), Some(to)) = (source.declaration(), target.declaration()) else { continue };
+        for (outport, inport) in from.outports.iter().flat_map(|o| to.inports.iter().map(move |i| (o, i))) {
+            if inport.accepts.contains(&outport.port_type) {
+                pairs.push(((source.id(), &*outport.id).into(), (target.id(), &*inport.id).into()));
+            }
+        }
+    }
+    pairs
+}
+
+fn properties(network: &Network) -> Vec<Address> {
+    let of = |p: &Processor| {
+        let address = |decl: PropertyDecl| Address::new(p.id(), decl.id);
+        p.property_decls().into_iter().map(address).collect::<Vec<_>>()
+    };
+    network.processors().flat_map(of).collect()
+}
+
+/// Every two properties of the same name.
+fn alike(network: &Network) -> Vec<(Address, Address)> {
+    let properties = properties(network);
+    let pairs = properties.iter().flat_map(|a| properties.iter().map(move |b| (a.clone(), b.clone())));
+    pairs.filter(|(a, b)| a.item == b.item).collect()
 }
 
 proptest! {
