@@ -1,6 +1,7 @@
 //! slot: sampling
 //! label: Nearest voxel
 //! help: The value of the voxel that contains the point. Shows the data as stored; the only choice for labels.
+//! kernel: 0 1
 
 fn sample_volume(p: vec3f) -> vec4f {
     let last = vec3i(textureDimensions(volume)) - 1;

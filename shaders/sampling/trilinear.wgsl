@@ -1,6 +1,7 @@
 //! slot: sampling
 //! label: Float trilinear
 //! help: Trilinear interpolation with 32-bit float weights from eight texel loads.
+//! kernel: 0 1
 
 fn sample_volume(p: vec3f) -> vec4f {
     let x = p * frame.dims - 0.5;

@@ -9,16 +9,14 @@ use glam::Vec2;
 use rayloom_gpu::Texture;
 use rayloom_gpu::wgpu::{TextureFormat, TextureUsages};
 use rayloom_network::{
-    Choice, Declaration, ImageKind, InportDecl, Job, OutportDecl, Outputs, PortType, ProcessError,
-    Properties, PropertyDecl,
+    Choice, Declaration, ImageKind, InportDecl, Job, OutportDecl, Outputs, PortType, ProcessError, Properties,
+    PropertyDecl,
 };
 
 use crate::{Bind, Context, Data, Image, ImagePass, JobData, read_picture};
 
-const SHADER: &str = concat!(
-    include_str!("../../../shaders/image/common.wgsl"),
-    include_str!("../../../shaders/image/background.wgsl")
-);
+const SHADER: &str =
+    concat!(include_str!("../../../shaders/image/common.wgsl"), include_str!("../../../shaders/image/background.wgsl"));
 
 /// As in the shader.
 #[repr(C)]
@@ -47,46 +45,23 @@ pub fn declaration() -> Declaration {
     let color = PortType::Image(ImageKind::Color);
     let modes = vec![
         Choice::new("color", "Colour", "The first colour everywhere."),
-        Choice::new(
-            "gradient",
-            "Gradient",
-            "From the first colour to the second.",
-        ),
+        Choice::new("gradient", "Gradient", "From the first colour to the second."),
         Choice::new("checkerboard", "Checkerboard", "Squares of both colours."),
-        Choice::new(
-            "picture",
-            "Picture",
-            "An image file; the first colour where it is transparent or does not reach.",
-        ),
+        Choice::new("picture", "Picture", "An image file; the first colour where it is transparent or does not reach."),
     ];
     let fits = vec![
-        Choice::new(
-            "cover",
-            "Cover",
-            "Fills the image and keeps its proportions; what does not fit is cut off.",
-        ),
-        Choice::new(
-            "contain",
-            "Contain",
-            "Is seen whole and keeps its proportions.",
-        ),
+        Choice::new("cover", "Cover", "Fills the image and keeps its proportions; what does not fit is cut off."),
+        Choice::new("contain", "Contain", "Is seen whole and keeps its proportions."),
         Choice::new("stretch", "Stretch", "Fills the image exactly."),
     ];
     Declaration::new("background", "Background", "Image")
         .help("Puts a background behind an image, or makes one on its own. Depth passes through.")
         .input(
-            InportDecl::new("image", "Image", &[color])
-                .optional()
-                .help("What lies in front, premultiplied colours."),
+            InportDecl::new("front", "Front", &[color]).optional().help("What lies in front, premultiplied colours."),
         )
-        .output(
-            OutportDecl::new("image", "Image", color)
-                .help("The image over the background, premultiplied colours."),
-        )
+        .output(OutportDecl::new("image", "Image", color).help("The image over the background, premultiplied colours."))
         .uses_render_size()
-        .property(
-            PropertyDecl::choice("mode", "Mode", "gradient", modes).help("What the background is."),
-        )
+        .property(PropertyDecl::choice("mode", "Mode", "gradient", modes).help("What the background is."))
         .property(
             PropertyDecl::color("first", "First colour", [0.16, 0.18, 0.22, 1.0])
                 .help("A colour, perhaps transparent."),
@@ -108,19 +83,14 @@ pub fn declaration() -> Declaration {
                 .help("Side of the squares of a checkerboard."),
         )
         .property(
-            PropertyDecl::file("file", "Picture", &["png", "exr"])
-                .optional()
-                .help("The image file of a picture."),
+            PropertyDecl::file("file", "Picture", &["png", "exr"]).optional().help("The image file of a picture."),
         )
-        .property(
-            PropertyDecl::choice("fit", "Fit", "cover", fits)
-                .help("How a picture is fitted into the image."),
-        )
+        .property(PropertyDecl::choice("fit", "Fit", "cover", fits).help("How a picture is fitted into the image."))
 }
 
 /// Draws the background and the image over it.
 pub fn process(context: &mut Context, job: &Job<'_, Data>) -> Result<Outputs<Data>, ProcessError> {
-    let front = job.optional_image("image").cloned();
+    let front = job.optional_image("front").cloned();
     let size = front.as_ref().map_or(job.size, |image| image.size());
     let blank = context.blank_color();
     let picture = match job.properties.text("mode")? {
@@ -143,23 +113,10 @@ pub fn process(context: &mut Context, job: &Job<'_, Data>) -> Result<Outputs<Dat
     })?;
     let depth = front.as_ref().and_then(|image| image.depth.clone());
     let view = front.as_ref().and_then(|image| image.view.clone());
-    Ok(Outputs::new().with(
-        "image",
-        Image {
-            color,
-            depth,
-            kind: ImageKind::Color,
-            view,
-        }
-        .into(),
-    ))
+    Ok(Outputs::new().with("image", Image { color, depth, kind: ImageKind::Color, view }.into()))
 }
 
-fn parameters(
-    properties: &Properties,
-    size: [u32; 2],
-    picture: [u32; 2],
-) -> Result<Parameters, ProcessError> {
+fn parameters(properties: &Properties, size: [u32; 2], picture: [u32; 2]) -> Result<Parameters, ProcessError> {
     let size = Vec2::from_array(size.map(|n| n as f32));
     let angle = (properties.f64("angle")? as f32).to_radians();
     let direction = Vec2::new(angle.cos(), -angle.sin());
@@ -201,35 +158,19 @@ fn load(context: &mut Context, id: &str, path: &Path) -> Result<Arc<Texture>, Pr
             "the background is to be a picture, but no file is chosen; choose one or another mode",
         ));
     }
-    let modified = std::fs::metadata(path)
-        .and_then(|metadata| metadata.modified())
-        .ok();
+    let modified = std::fs::metadata(path).and_then(|metadata| metadata.modified()).ok();
     let last: LastPicture = context.take_state(id);
     let texture = match last.texture {
-        Some(texture) if last.path == path && last.modified == modified && modified.is_some() => {
-            texture
-        }
+        Some(texture) if last.path == path && last.modified == modified && modified.is_some() => texture,
         _ => {
             let picture = read_picture(path)?;
             let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
             let label = path.display().to_string();
-            let texture =
-                context
-                    .gpu
-                    .texture_2d(&label, picture.size, TextureFormat::Rgba32Float, usage)?;
-            context
-                .gpu
-                .upload(&texture, bytemuck::cast_slice(&picture.pixels))?;
+            let texture = context.gpu.texture_2d(&label, picture.size, TextureFormat::Rgba32Float, usage)?;
+            context.gpu.upload(&texture, bytemuck::cast_slice(&picture.pixels))?;
             Arc::new(texture)
         }
     };
-    context.put_state(
-        id,
-        LastPicture {
-            path: path.to_owned(),
-            modified,
-            texture: Some(texture.clone()),
-        },
-    );
+    context.put_state(id, LastPicture { path: path.to_owned(), modified, texture: Some(texture.clone()) });
     Ok(texture)
 }

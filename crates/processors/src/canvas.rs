@@ -1,8 +1,7 @@
 //! Canvas: shows an image.
 
 use rayloom_network::{
-    Declaration, ImageKind, InportDecl, Job, OutportDecl, Outputs, PortType, ProcessError,
-    PropertyDecl,
+    Declaration, ImageKind, InportDecl, Job, OutportDecl, Outputs, PortType, ProcessError, PropertyDecl,
 };
 
 use crate::{Context, Data, JobData};
@@ -16,14 +15,12 @@ pub fn declaration() -> Declaration {
             InportDecl::new("image", "Image", &[color])
                 .help("The image to show; a colour map makes one of anything else."),
         )
-        .output(OutportDecl::new("image", "Image", color).help("The same image."))
-        .property(
-            PropertyDecl::size("size", "Size", [512, 512]).help("Width and height of the image."),
-        )
+        .output(OutportDecl::new("shown", "Shown", color).help("The same image."))
+        .property(PropertyDecl::size("size", "Size", [512, 512]).help("Width and height of the image."))
         .sink()
 }
 
 /// Hands the image on to whoever shows it.
 pub fn process(_: &mut Context, job: &Job<'_, Data>) -> Result<Outputs<Data>, ProcessError> {
-    Ok(Outputs::new().with("image", Data::Image(job.image("image")?.clone())))
+    Ok(Outputs::new().with("shown", Data::Image(job.image("image")?.clone())))
 }

@@ -3,44 +3,28 @@
 use bytemuck::{Pod, Zeroable};
 use rayloom_gpu::GpuError;
 use rayloom_network::{
-    Choice, Declaration, ImageKind, InportDecl, Job, OutportDecl, Outputs, PortType, ProcessError,
-    PropertyDecl,
+    Choice, Declaration, ImageKind, InportDecl, Job, OutportDecl, Outputs, PortType, ProcessError, PropertyDecl,
 };
 
 use crate::{Bind, Context, Data, Image, ImagePass, JobData, MISS};
 
-const SHADER: &str = concat!(
-    include_str!("../../../shaders/image/common.wgsl"),
-    include_str!("../../../shaders/image/color_map.wgsl")
-);
+const SHADER: &str =
+    concat!(include_str!("../../../shaders/image/common.wgsl"), include_str!("../../../shaders/image/color_map.wgsl"));
 
 /// What can be shown, in the order of the shader's numbers.
 const SHOWN: [(&str, &str, &str); 6] = [
-    (
-        "color",
-        "Colours",
-        "The first three channels as red, green and blue.",
-    ),
+    ("color", "Colours", "The first three channels as red, green and blue."),
     ("red", "Channel 1", "Red, or x."),
     ("green", "Channel 2", "Green, or y."),
     ("blue", "Channel 3", "Blue, or z."),
     ("alpha", "Channel 4", "Alpha, or whether something was hit."),
-    (
-        "depth",
-        "Depth",
-        "The distance along the viewing direction.",
-    ),
+    ("depth", "Depth", "The distance along the viewing direction."),
 ];
 const DEPTH: usize = 5;
 
 /// Colour maps: stops at equal distances.
 const MAPS: [(&str, &str, &str, &[[f32; 3]]); 5] = [
-    (
-        "gray",
-        "Gray",
-        "From black to white.",
-        &[[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]],
-    ),
+    ("gray", "Gray", "From black to white.", &[[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]]),
     (
         "viridis",
         "Viridis",
@@ -57,12 +41,7 @@ const MAPS: [(&str, &str, &str, &[[f32; 3]]); 5] = [
         "heat",
         "Heat",
         "Black, red, yellow, white.",
-        &[
-            [0.0, 0.0, 0.0],
-            [1.0, 0.0, 0.0],
-            [1.0, 1.0, 0.0],
-            [1.0, 1.0, 1.0],
-        ],
+        &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 1.0, 1.0]],
     ),
     (
         "diverging",
@@ -101,20 +80,14 @@ struct Parameters {
 pub fn declaration() -> Declaration {
     use ImageKind::{Color, Data, Depth, EntryPoints, ExitPoints, Normals};
     let any = [Color, EntryPoints, ExitPoints, Depth, Normals, Data].map(PortType::Image);
-    let shown = SHOWN
-        .iter()
-        .map(|&(id, label, help)| Choice::new(id, label, help))
-        .collect();
-    let maps = MAPS
-        .iter()
-        .map(|&(id, label, help, _)| Choice::new(id, label, help))
-        .collect();
+    let shown = SHOWN.iter().map(|&(id, label, help)| Choice::new(id, label, help)).collect();
+    let maps = MAPS.iter().map(|&(id, label, help, _)| Choice::new(id, label, help)).collect();
     Declaration::new("color_map", "Colour map", "Image")
         .help(
             "Shows numbers of an image as colours: a channel, the depth, entry points, normals. Pixels in which nothing was hit \
              are transparent.",
         )
-        .input(InportDecl::new("image", "Image", &any).help("An image of any kind."))
+        .input(InportDecl::new("source", "Source", &any).help("An image of any kind."))
         .output(
             OutportDecl::new("image", "Image", PortType::Image(Color)).help("Premultiplied colours; the depth passes through."),
         )
@@ -132,13 +105,11 @@ pub fn declaration() -> Declaration {
 
 /// Maps the numbers to colours.
 pub fn process(context: &mut Context, job: &Job<'_, Data>) -> Result<Outputs<Data>, ProcessError> {
-    let image = job.image("image")?;
+    let image = job.image("source")?;
     let chosen = job.properties.text("show")?;
     let show = SHOWN.iter().position(|&(id, ..)| id == chosen).unwrap_or(0);
     if show == DEPTH && image.depth.is_none() {
-        return Err(ProcessError::new(
-            "this image has no depth; show something else or connect an image that has one",
-        ));
+        return Err(ProcessError::new("this image has no depth; show something else or connect an image that has one"));
     }
     let has_misses = !matches!(image.kind, ImageKind::Color | ImageKind::Data);
     let range = if !job.properties.bool("automatic")? {
@@ -171,16 +142,7 @@ pub fn process(context: &mut Context, job: &Job<'_, Data>) -> Result<Outputs<Dat
         size,
     })?;
     let (depth, view) = (image.depth.clone(), image.view.clone());
-    let mut outputs = Outputs::new().with(
-        "image",
-        Image {
-            color,
-            depth,
-            kind: ImageKind::Color,
-            view,
-        }
-        .into(),
-    );
+    let mut outputs = Outputs::new().with("image", Image { color, depth, kind: ImageKind::Color, view }.into());
     outputs.statistics.insert("minimum".into(), range[0].into());
     outputs.statistics.insert("maximum".into(), range[1].into());
     Ok(outputs)
@@ -193,11 +155,7 @@ fn parameters(map: &str, range: [f32; 2], show: usize, has_misses: bool) -> Para
         *stop = [r, g, b, 1.0];
     }
     // A range of one value would divide by zero; any width shows that value with the first colour.
-    let upper = if range[1] == range[0] {
-        range[0] + 1.0
-    } else {
-        range[1]
-    };
+    let upper = if range[1] == range[0] { range[0] + 1.0 } else { range[1] };
     Parameters {
         stops,
         range: [range[0], upper],
@@ -208,33 +166,17 @@ fn parameters(map: &str, range: [f32; 2], show: usize, has_misses: bool) -> Para
 }
 
 /// The smallest and the largest of the numbers to be shown; 0 and 1 when there are none.
-fn extremes(
-    context: &Context,
-    image: &Image,
-    show: usize,
-    has_misses: bool,
-) -> Result<[f32; 2], GpuError> {
+fn extremes(context: &Context, image: &Image, show: usize, has_misses: bool) -> Result<[f32; 2], GpuError> {
     let numbers: Vec<f32> = match &image.depth {
-        Some(depth) if show == DEPTH => context
-            .gpu
-            .read_rgba_f32(depth)?
-            .iter()
-            .map(|t| t[0])
-            .filter(|&d| d < MISS)
-            .collect(),
+        Some(depth) if show == DEPTH => {
+            context.gpu.read_rgba_f32(depth)?.iter().map(|t| t[0]).filter(|&d| d < MISS).collect()
+        }
         _ => {
             let texels = context.gpu.read_rgba_f32(&image.color)?;
-            texels
-                .iter()
-                .filter(|t| !has_misses || t[3] > 0.0)
-                .map(|t| t[show - 1])
-                .collect()
+            texels.iter().filter(|t| !has_misses || t[3] > 0.0).map(|t| t[show - 1]).collect()
         }
     };
     let finite = || numbers.iter().copied().filter(|x| x.is_finite());
-    let (low, high) = (
-        finite().fold(f32::INFINITY, f32::min),
-        finite().fold(f32::NEG_INFINITY, f32::max),
-    );
+    let (low, high) = (finite().fold(f32::INFINITY, f32::min), finite().fold(f32::NEG_INFINITY, f32::max));
     Ok(if low <= high { [low, high] } else { [0.0, 1.0] })
 }

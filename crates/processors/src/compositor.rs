@@ -2,16 +2,13 @@
 
 use bytemuck::{Pod, Zeroable};
 use rayloom_network::{
-    Choice, Declaration, ImageKind, InportDecl, Job, OutportDecl, Outputs, PortType, ProcessError,
-    PropertyDecl,
+    Choice, Declaration, ImageKind, InportDecl, Job, OutportDecl, Outputs, PortType, ProcessError, PropertyDecl,
 };
 
 use crate::{Bind, Context, Data, Image, ImagePass, JobData};
 
-const SHADER: &str = concat!(
-    include_str!("../../../shaders/image/common.wgsl"),
-    include_str!("../../../shaders/image/compositor.wgsl")
-);
+const SHADER: &str =
+    concat!(include_str!("../../../shaders/image/common.wgsl"), include_str!("../../../shaders/image/compositor.wgsl"));
 
 /// The modes in the order of the shader's constants.
 const MODES: [(&str, &str, &str); 6] = [
@@ -30,16 +27,8 @@ const MODES: [(&str, &str, &str); 6] = [
         "First over second",
         "The first lies over the second, whatever their depths. Depth: the first's where it hits, else the second's.",
     ),
-    (
-        "weighted",
-        "Weighted",
-        "A mixture: weight 0 is the first, 1 the second. Depth: the nearer.",
-    ),
-    (
-        "difference",
-        "Difference",
-        "The amount by which the colours differ, times the gain, opaque. Depth: none.",
-    ),
+    ("weighted", "Weighted", "A mixture: weight 0 is the first, 1 the second. Depth: the nearer."),
+    ("difference", "Difference", "The amount by which the colours differ, times the gain, opaque. Depth: none."),
     (
         "maximum",
         "Maximum",
@@ -59,10 +48,7 @@ struct Parameters {
 /// Ports, properties and help.
 pub fn declaration() -> Declaration {
     let color = PortType::Image(ImageKind::Color);
-    let modes = MODES
-        .iter()
-        .map(|&(id, label, help)| Choice::new(id, label, help))
-        .collect();
+    let modes = MODES.iter().map(|&(id, label, help)| Choice::new(id, label, help)).collect();
     Declaration::new("compositor", "Compositor", "Image")
         .help("Makes one image of two of the same size. An image without depth is farther away than anything with one.")
         .input(InportDecl::new("first", "First", &[color]).help("An image, premultiplied colours."))
@@ -128,14 +114,5 @@ pub fn process(context: &mut Context, job: &Job<'_, Data>) -> Result<Outputs<Dat
     })?;
     let view = first.view.clone().or_else(|| second.view.clone());
     let depth = has_depth.then_some(depth);
-    Ok(Outputs::new().with(
-        "image",
-        Image {
-            color,
-            depth,
-            kind: ImageKind::Color,
-            view,
-        }
-        .into(),
-    ))
+    Ok(Outputs::new().with("image", Image { color, depth, kind: ImageKind::Color, view }.into()))
 }

@@ -24,6 +24,8 @@ pub struct Context {
     pub pipelines: PipelineCache,
     /// Measures GPU time; hand it to every pass.
     pub timer: Timer,
+    /// Whether ray traversals count rays and samples, which costs a little time.
+    pub count_samples: bool,
     /// Whom to tell about progress.
     pub progress: Option<ProgressListener>,
     states: HashMap<(String, TypeId), Box<dyn Any + Send>>,
@@ -43,6 +45,7 @@ impl Context {
             pool: TexturePool::new(),
             pipelines: PipelineCache::new(),
             timer,
+            count_samples: false,
             progress: None,
             states: HashMap::new(),
             blank_color,
@@ -52,10 +55,7 @@ impl Context {
 
     /// What the processor with this id remembers from its last run, as a `T` of its own; the default at first.
     pub fn state<T: Any + Default + Send>(&mut self, id: &str) -> &mut T {
-        let slot = self
-            .states
-            .entry((id.to_owned(), TypeId::of::<T>()))
-            .or_insert_with(|| Box::new(T::default()));
+        let slot = self.states.entry((id.to_owned(), TypeId::of::<T>())).or_insert_with(|| Box::new(T::default()));
         match slot.downcast_mut() {
             Some(state) => state,
             None => unreachable!("states are stored under their own type"),
@@ -66,14 +66,12 @@ impl Context {
     /// the default unless [`Context::put_state`] is called.
     pub fn take_state<T: Any + Default + Send>(&mut self, id: &str) -> T {
         let slot = self.states.remove(&(id.to_owned(), TypeId::of::<T>()));
-        slot.and_then(|state| state.downcast().ok())
-            .map_or_else(T::default, |state| *state)
+        slot.and_then(|state| state.downcast().ok()).map_or_else(T::default, |state| *state)
     }
 
     /// Stores what the processor with this id remembers.
     pub fn put_state<T: Any + Send>(&mut self, id: &str, state: T) {
-        self.states
-            .insert((id.to_owned(), TypeId::of::<T>()), Box::new(state));
+        self.states.insert((id.to_owned(), TypeId::of::<T>()), Box::new(state));
     }
 
     /// Forgets what processors remember that do not exist any more.
@@ -83,14 +81,12 @@ impl Context {
 
     /// A colour target from the pool: rgba32float of `size` pixels. Its contents are old, so write every pixel.
     pub fn color_target(&mut self, label: &str, size: [u32; 2]) -> Result<Arc<Texture>, GpuError> {
-        self.pool
-            .get(&self.gpu, label, size, TextureFormat::Rgba32Float)
+        self.pool.get(&self.gpu, label, size, TextureFormat::Rgba32Float)
     }
 
     /// A depth target from the pool: r32float of `size` pixels. Its contents are old, so write every pixel.
     pub fn depth_target(&mut self, label: &str, size: [u32; 2]) -> Result<Arc<Texture>, GpuError> {
-        self.pool
-            .get(&self.gpu, label, size, TextureFormat::R32Float)
+        self.pool.get(&self.gpu, label, size, TextureFormat::R32Float)
     }
 
     /// One transparent texel, for an optional colour input that is not connected.

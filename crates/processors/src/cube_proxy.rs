@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use rayloom_network::{
-    Declaration, InportDecl, Job, OutportDecl, Outputs, PortType, ProcessError, PropertyDecl,
-};
+use rayloom_network::{Declaration, InportDecl, Job, OutportDecl, Outputs, PortType, ProcessError, PropertyDecl};
 
 use crate::{Context, Data, JobData, Mesh, VolumeData};
 
@@ -31,8 +29,7 @@ const TRIANGLES: [[u32; 3]; 12] = [
 
 /// Ports, properties and help.
 pub fn declaration() -> Declaration {
-    let volume =
-        InportDecl::new("volume", "Volume", &[PortType::Volume]).help("The volume to be bounded.");
+    let volume = InportDecl::new("volume", "Volume", &[PortType::Volume]).help("The volume to be bounded.");
     let geometry = OutportDecl::new("geometry", "Geometry", PortType::Geometry)
         .help("A closed box in the coordinates of the volume.");
     let mut declaration = Declaration::new("cube_proxy", "Cube proxy", "Geometry")
@@ -44,14 +41,10 @@ pub fn declaration() -> Declaration {
             "The part of the volume to keep along {axis}, in voxels: from the first edge to the second. Voxel i reaches from \
              edge i to edge i + 1, so [3, 5] keeps the whole of the voxels 3 and 4. Ends beyond the volume mean its end."
         );
-        let clip = PropertyDecl::vector(
-            format!("clip_{axis}"),
-            format!("Clip {axis}"),
-            &[0.0, UNLIMITED],
-        )
-        .range(0.0, UNLIMITED)
-        .unit("voxels")
-        .help(help);
+        let clip = PropertyDecl::vector(format!("clip_{axis}"), format!("Clip {axis}"), &[0.0, UNLIMITED])
+            .range(0.0, UNLIMITED)
+            .unit("voxels")
+            .help(help);
         declaration = declaration.property(clip);
     }
     declaration
@@ -79,12 +72,7 @@ pub fn process(_: &mut Context, job: &Job<'_, Data>) -> Result<Outputs<Data>, Pr
 /// The box between two corners, volume coordinates.
 fn box_between(volume: &Arc<VolumeData>, ends: [[f32; 3]; 2]) -> Mesh {
     let corner = |c: usize| [ends[c & 1][0], ends[c >> 1 & 1][1], ends[c >> 2 & 1][2]];
-    Mesh {
-        positions: (0..8).map(corner).collect(),
-        indices: TRIANGLES.to_vec(),
-        volume: volume.clone(),
-        closed: true,
-    }
+    Mesh { positions: (0..8).map(corner).collect(), indices: TRIANGLES.to_vec(), volume: volume.clone(), closed: true }
 }
 
 /// The whole box of a volume.

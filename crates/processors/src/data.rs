@@ -27,19 +27,13 @@ impl Data {
     /// What conditions and hints may know about the data.
     pub fn facts(&self) -> Facts {
         match self {
-            Self::Volume(data) => Facts::Volume {
-                dims: data.volume.dims,
-                channels: data.volume.channels,
-                role: data.volume.role,
-            },
-            Self::Image(image) => Facts::Image {
-                kind: image.kind,
-                size: image.size(),
-                has_depth: image.depth.is_some(),
-            },
-            Self::Geometry(mesh) => Facts::Geometry {
-                triangles: mesh.indices.len(),
-            },
+            Self::Volume(data) => {
+                Facts::Volume { dims: data.volume.dims, channels: data.volume.channels, role: data.volume.role }
+            }
+            Self::Image(image) => {
+                Facts::Image { kind: image.kind, size: image.size(), has_depth: image.depth.is_some() }
+            }
+            Self::Geometry(mesh) => Facts::Geometry { triangles: mesh.indices.len() },
         }
     }
 }
@@ -85,11 +79,7 @@ impl Precision {
                 "Lossless",
                 "The cheapest format that holds every value exactly (32-bit floats for floats).",
             ),
-            Choice::new(
-                "8-bit",
-                "8 bits",
-                "256 codes over the value range: a quarter of the memory, visible steps.",
-            ),
+            Choice::new("8-bit", "8 bits", "256 codes over the value range: a quarter of the memory, visible steps."),
             Choice::new(
                 "16-bit",
                 "16 bits",
@@ -125,11 +115,7 @@ pub struct VolumeData {
 impl VolumeData {
     /// A volume that is not on the device yet.
     pub fn new(volume: Arc<Volume>, precision: Precision) -> Self {
-        Self {
-            volume,
-            precision,
-            gpu: OnceLock::new(),
-        }
+        Self { volume, precision, gpu: OnceLock::new() }
     }
 
     /// The volume's texture; uploaded at the first call. Fails when the device's limits or memory do not suffice.
@@ -203,8 +189,7 @@ impl JobData for Job<'_, Data> {
     }
 
     fn image(&self, inport: &str) -> Result<&Arc<Image>, ProcessError> {
-        self.optional_image(inport)
-            .ok_or_else(|| missing(inport, "image"))
+        self.optional_image(inport).ok_or_else(|| missing(inport, "image"))
     }
 
     fn optional_image(&self, inport: &str) -> Option<&Arc<Image>> {
@@ -223,7 +208,5 @@ impl JobData for Job<'_, Data> {
 }
 
 fn missing(inport: &str, what: &str) -> ProcessError {
-    ProcessError::new(format!(
-        "there is no {what} at the inport `{inport}`; connect one"
-    ))
+    ProcessError::new(format!("there is no {what} at the inport `{inport}`; connect one"))
 }

@@ -2,9 +2,7 @@
 
 use std::path::Path;
 
-use rayloom_network::{
-    Declaration, ImageKind, InportDecl, Job, Outputs, PortType, ProcessError, PropertyDecl,
-};
+use rayloom_network::{Declaration, ImageKind, InportDecl, Job, Outputs, PortType, ProcessError, PropertyDecl};
 
 use crate::{Context, Data, Image, JobData, Picture, write_picture};
 
@@ -35,9 +33,7 @@ pub fn process(context: &mut Context, job: &Job<'_, Data>) -> Result<Outputs<Dat
         let path: &Path = job.properties.path("file")?;
         let picture = job.image("image")?.read_back(context)?;
         write_picture(path, &picture)?;
-        outputs
-            .notes
-            .push(format!("{} was written.", path.display()));
+        outputs.notes.push(format!("{} was written.", path.display()));
     }
     Ok(outputs)
 }
@@ -47,20 +43,9 @@ impl Image {
     pub fn read_back(&self, context: &Context) -> Result<Picture, rayloom_gpu::GpuError> {
         let pixels = context.gpu.read_rgba_f32(&self.color)?;
         let depth = match &self.depth {
-            Some(depth) => Some(
-                context
-                    .gpu
-                    .read_rgba_f32(depth)?
-                    .into_iter()
-                    .map(|texel| texel[0])
-                    .collect(),
-            ),
+            Some(depth) => Some(context.gpu.read_rgba_f32(depth)?.into_iter().map(|texel| texel[0]).collect()),
             None => None,
         };
-        Ok(Picture {
-            size: self.size(),
-            pixels,
-            depth,
-        })
+        Ok(Picture { size: self.size(), pixels, depth })
     }
 }

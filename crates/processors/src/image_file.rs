@@ -3,9 +3,7 @@
 use std::io::{self, Cursor};
 use std::path::{Path, PathBuf};
 
-use exr::prelude::{
-    AnyChannel, AnyChannels, Encoding, FlatSamples, Layer, LayerAttributes, SmallVec, WritableImage,
-};
+use exr::prelude::{AnyChannel, AnyChannels, Encoding, FlatSamples, Layer, LayerAttributes, SmallVec, WritableImage};
 use image::{ExtendedColorType, ImageEncoder, ImageReader, codecs::png::PngEncoder};
 use npyz::WriterBuilder;
 use thiserror::Error;
@@ -62,18 +60,12 @@ pub enum ImageFileError {
 
 /// Writes an image in the format of the path's extension: .png, .exr or .npy.
 pub fn write_picture(path: &Path, picture: &Picture) -> Result<(), ImageFileError> {
-    let extension = path
-        .extension()
-        .map(|e| e.to_string_lossy().to_lowercase())
-        .unwrap_or_default();
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     match extension.as_str() {
         "png" => write_png(path, picture),
         "exr" => write_exr(path, picture),
         "npy" => write_npy(path, picture),
-        _ => Err(ImageFileError::Extension {
-            path: path.to_owned(),
-            found: extension,
-        }),
+        _ => Err(ImageFileError::Extension { path: path.to_owned(), found: extension }),
     }
 }
 
@@ -81,11 +73,7 @@ pub fn write_picture(path: &Path, picture: &Picture) -> Result<(), ImageFileErro
 /// lies outside `0 ..= 1` is clamped, and depth is not written.
 pub fn write_png(path: &Path, picture: &Picture) -> Result<(), ImageFileError> {
     check_length(path, picture)?;
-    let bytes: Vec<u8> = picture
-        .pixels
-        .iter()
-        .flat_map(|&pixel| straight_bytes(pixel))
-        .collect();
+    let bytes: Vec<u8> = picture.pixels.iter().flat_map(|&pixel| straight_bytes(pixel)).collect();
     let mut file = Cursor::new(Vec::new());
     let [width, height] = picture.size;
     PngEncoder::new(&mut file)
@@ -103,12 +91,7 @@ pub fn write_exr(path: &Path, picture: &Picture) -> Result<(), ImageFileError> {
         .enumerate()
         .map(|(i, name)| channel(name, picture.pixels.iter().map(|pixel| pixel[i]).collect()))
         .collect();
-    channels.extend(
-        picture
-            .depth
-            .iter()
-            .map(|depth| channel("Z", depth.clone())),
-    );
+    channels.extend(picture.depth.iter().map(|depth| channel("Z", depth.clone())));
     let size = picture.size.map(|n| n as usize);
     let layer = Layer::new(
         (size[0], size[1]),
@@ -117,10 +100,7 @@ pub fn write_exr(path: &Path, picture: &Picture) -> Result<(), ImageFileError> {
         AnyChannels::sort(channels),
     );
     let mut file = Cursor::new(Vec::new());
-    exr::image::Image::from_layer(layer)
-        .write()
-        .to_buffered(&mut file)
-        .map_err(|error| contents(path, error))?;
+    exr::image::Image::from_layer(layer).write().to_buffered(&mut file).map_err(|error| contents(path, error))?;
     store(path, file.into_inner())
 }
 
@@ -130,49 +110,26 @@ pub fn write_npy(path: &Path, picture: &Picture) -> Result<(), ImageFileError> {
     let [width, height] = picture.size.map(u64::from);
     let mut file = Cursor::new(Vec::new());
     let write = |file: &mut Cursor<Vec<u8>>| -> io::Result<()> {
-        let options = npyz::WriteOptions::<f32>::new()
-            .default_dtype()
-            .shape(&[height, width, 4])
-            .writer(file);
+        let options = npyz::WriteOptions::<f32>::new().default_dtype().shape(&[height, width, 4]).writer(file);
         let mut writer = options.begin_nd()?;
         writer.extend(picture.pixels.iter().flatten().copied())?;
         writer.finish()
     };
-    write(&mut file).map_err(|source| ImageFileError::Io {
-        path: path.to_owned(),
-        source,
-    })?;
+    write(&mut file).map_err(|source| ImageFileError::Io { path: path.to_owned(), source })?;
     store(path, file.into_inner())
 }
 
 /// Reads a PNG or OpenEXR file as premultiplied colours. PNG numbers are taken as they are, 0 to 1.
 pub fn read_picture(path: &Path) -> Result<Picture, ImageFileError> {
-    let io_error = |source| ImageFileError::Io {
-        path: path.to_owned(),
-        source,
-    };
-    let reader = ImageReader::open(path)
-        .map_err(io_error)?
-        .with_guessed_format()
-        .map_err(io_error)?;
+    let io_error = |source| ImageFileError::Io { path: path.to_owned(), source };
+    let reader = ImageReader::open(path).map_err(io_error)?.with_guessed_format().map_err(io_error)?;
     let premultiplied = reader.format() == Some(image::ImageFormat::OpenExr);
-    let decoded = reader
-        .decode()
-        .map_err(|error| contents(path, error))?
-        .into_rgba32f();
+    let decoded = reader.decode().map_err(|error| contents(path, error))?.into_rgba32f();
     let multiply = |[r, g, b, a]: [f32; 4]| {
-        if premultiplied {
-            [r, g, b, a]
-        } else {
-            [r * a, g * a, b * a, a]
-        }
+        if premultiplied { [r, g, b, a] } else { [r * a, g * a, b * a, a] }
     };
     let pixels = decoded.pixels().map(|pixel| multiply(pixel.0)).collect();
-    Ok(Picture {
-        size: decoded.dimensions().into(),
-        pixels,
-        depth: None,
-    })
+    Ok(Picture { size: decoded.dimensions().into(), pixels, depth: None })
 }
 
 /// Straight 8-bit RGBA of a premultiplied colour; transparent pixels are black.
@@ -180,48 +137,22 @@ fn straight_bytes([r, g, b, a]: [f32; 4]) -> [u8; 4] {
     let divisor = if a > 0.0 { a } else { 1.0 };
     // Casts saturate, and turn NaN into 0.
     let code = |value: f32| (value * 255.0).round() as u8;
-    if a > 0.0 {
-        [
-            code(r / divisor),
-            code(g / divisor),
-            code(b / divisor),
-            code(a),
-        ]
-    } else {
-        [0; 4]
-    }
+    if a > 0.0 { [code(r / divisor), code(g / divisor), code(b / divisor), code(a)] } else { [0; 4] }
 }
 
 fn check_length(path: &Path, picture: &Picture) -> Result<(), ImageFileError> {
     let expected = picture.size[0] as usize * picture.size[1] as usize;
-    let lengths = [
-        Some(picture.pixels.len()),
-        picture.depth.as_ref().map(Vec::len),
-    ];
-    match lengths
-        .into_iter()
-        .flatten()
-        .find(|&found| found != expected)
-    {
-        Some(found) => Err(ImageFileError::Length {
-            path: path.to_owned(),
-            found,
-            expected,
-        }),
+    let lengths = [Some(picture.pixels.len()), picture.depth.as_ref().map(Vec::len)];
+    match lengths.into_iter().flatten().find(|&found| found != expected) {
+        Some(found) => Err(ImageFileError::Length { path: path.to_owned(), found, expected }),
         None => Ok(()),
     }
 }
 
 fn contents(path: &Path, error: impl ToString) -> ImageFileError {
-    ImageFileError::Contents {
-        path: path.to_owned(),
-        message: error.to_string(),
-    }
+    ImageFileError::Contents { path: path.to_owned(), message: error.to_string() }
 }
 
 fn store(path: &Path, bytes: Vec<u8>) -> Result<(), ImageFileError> {
-    std::fs::write(path, bytes).map_err(|source| ImageFileError::Io {
-        path: path.to_owned(),
-        source,
-    })
+    std::fs::write(path, bytes).map_err(|source| ImageFileError::Io { path: path.to_owned(), source })
 }

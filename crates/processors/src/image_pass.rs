@@ -39,33 +39,21 @@ impl Context {
     /// Runs a computation for every pixel; its time is measured if that is switched on.
     pub fn run_image_pass(&mut self, pass: &ImagePass<'_>) -> Result<(), GpuError> {
         let gpu = &self.gpu;
-        let pipeline = self
-            .pipelines
-            .compute(gpu, pass.label, pass.wgsl, pass.entry_point)?;
+        let pipeline = self.pipelines.compute(gpu, pass.label, pass.wgsl, pass.entry_point)?;
         let uniforms = pass
             .bindings
             .iter()
             .map(|binding| match binding {
-                Bind::Uniform(bytes) => gpu
-                    .buffer(pass.label, bytes, wgpu::BufferUsages::UNIFORM)
-                    .map(Some),
+                Bind::Uniform(bytes) => gpu.buffer(pass.label, bytes, wgpu::BufferUsages::UNIFORM).map(Some),
                 _ => Ok(None),
             })
             .collect::<Result<Vec<_>, _>>()?;
         gpu.guarded(pass.label, || {
-            let resources = pass
-                .bindings
-                .iter()
-                .zip(&uniforms)
-                .map(|(binding, uniform)| resource(binding, uniform.as_ref()));
+            let resources =
+                pass.bindings.iter().zip(&uniforms).map(|(binding, uniform)| resource(binding, uniform.as_ref()));
             let entries: Vec<_> = (0..)
                 .zip(resources)
-                .filter_map(|(binding, resource)| {
-                    Some(wgpu::BindGroupEntry {
-                        binding,
-                        resource: resource?,
-                    })
-                })
+                .filter_map(|(binding, resource)| Some(wgpu::BindGroupEntry { binding, resource: resource? }))
                 .collect();
             let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some(pass.label),
@@ -79,21 +67,14 @@ impl Context {
             });
             compute.set_pipeline(&pipeline);
             compute.set_bind_group(0, &group, &[]);
-            compute.dispatch_workgroups(
-                pass.size[0].div_ceil(GROUP),
-                pass.size[1].div_ceil(GROUP),
-                1,
-            );
+            compute.dispatch_workgroups(pass.size[0].div_ceil(GROUP), pass.size[1].div_ceil(GROUP), 1);
             drop(compute);
             gpu.queue.submit([encoder.finish()]);
         })
     }
 }
 
-fn resource<'a>(
-    binding: &Bind<'a>,
-    uniform: Option<&'a wgpu::Buffer>,
-) -> Option<wgpu::BindingResource<'a>> {
+fn resource<'a>(binding: &Bind<'a>, uniform: Option<&'a wgpu::Buffer>) -> Option<wgpu::BindingResource<'a>> {
     Some(match binding {
         Bind::Uniform(_) => uniform?.as_entire_binding(),
         Bind::Texture(texture) => wgpu::BindingResource::TextureView(&texture.view),

@@ -11,11 +11,7 @@ use crate::{Context, Data, processors};
 /// A processor type together with its work.
 pub trait Process: ProcessorType {
     /// Computes the wanted outputs. Device errors that nobody catches inside come out as the processor's error.
-    fn process(
-        &self,
-        context: &mut Context,
-        job: &Job<'_, Data>,
-    ) -> Result<Outputs<Data>, ProcessError>;
+    fn process(&self, context: &mut Context, job: &Job<'_, Data>) -> Result<Outputs<Data>, ProcessError>;
 }
 
 /// What a processor does that is nothing but a function of context and job.
@@ -29,7 +25,7 @@ pub struct PlainProcess {
 
 impl PlainProcess {
     /// A processor type that is declared so and does this.
-    pub fn new(declaration: Declaration, work: Work) -> Arc<dyn Process> {
+    pub fn shared(declaration: Declaration, work: Work) -> Arc<dyn Process> {
         Arc::new(Self { declaration, work })
     }
 }
@@ -41,11 +37,7 @@ impl ProcessorType for PlainProcess {
 }
 
 impl Process for PlainProcess {
-    fn process(
-        &self,
-        context: &mut Context,
-        job: &Job<'_, Data>,
-    ) -> Result<Outputs<Data>, ProcessError> {
+    fn process(&self, context: &mut Context, job: &Job<'_, Data>) -> Result<Outputs<Data>, ProcessError> {
         (self.work)(context, job)
     }
 }
@@ -63,19 +55,23 @@ pub struct Runner {
 impl Runner {
     /// A runner for all processors of this crate.
     pub fn new(gpu: Gpu) -> Result<Self, GpuError> {
-        let processes = processors()
-            .into_iter()
-            .map(|process| (process.declaration().id.clone(), process))
-            .collect();
-        Ok(Self {
-            context: Context::new(gpu)?,
-            processes,
-        })
+        let processes = processors().into_iter().map(|process| (process.declaration().id.clone(), process)).collect();
+        Ok(Self { context: Context::new(gpu)?, processes })
     }
 
     /// Switches measuring GPU time on or off; off at first, because reading the clock waits for the device.
     pub fn measure(&mut self, enabled: bool) {
         self.context.timer.set_enabled(enabled);
+    }
+
+    /// Switches counting of rays and samples on or off; off at first. They come as statistics of the ray traversals.
+    pub fn count_samples(&mut self, enabled: bool) {
+        self.context.count_samples = enabled;
+    }
+
+    /// The shader that the ray traversal with this id used in its last run.
+    pub fn assembled(&mut self, id: &str) -> Option<&rayloom_wgsl::Assembled> {
+        self.context.state::<crate::ray_traversal::Memory>(id).assembled()
     }
 
     /// Frees what is left of processors that are gone, and render targets beyond what the next evaluation may want.

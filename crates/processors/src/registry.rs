@@ -10,17 +10,19 @@ use crate::*;
 /// All processors, in the order a user would meet them; one line each.
 pub fn processors() -> Vec<Arc<dyn Process>> {
     vec![
-        PlainProcess::new(volume_source::declaration(), volume_source::process),
+        PlainProcess::shared(volume_source::declaration(), volume_source::process),
         Arc::new(volume_generator::VolumeGenerator::new()),
-        PlainProcess::new(gradient_volume::declaration(), gradient_volume::process),
-        PlainProcess::new(cube_proxy::declaration(), cube_proxy::process),
-        PlainProcess::new(clipped_proxy::declaration(), clipped_proxy::process),
-        PlainProcess::new(slice_view::declaration(), slice_view::process),
-        PlainProcess::new(background::declaration(), background::process),
-        PlainProcess::new(compositor::declaration(), compositor::process),
-        PlainProcess::new(color_map::declaration(), color_map::process),
-        PlainProcess::new(canvas::declaration(), canvas::process),
-        PlainProcess::new(image_export::declaration(), image_export::process),
+        PlainProcess::shared(gradient_volume::declaration(), gradient_volume::process),
+        PlainProcess::shared(cube_proxy::declaration(), cube_proxy::process),
+        PlainProcess::shared(clipped_proxy::declaration(), clipped_proxy::process),
+        PlainProcess::shared(entry_exit_points::declaration(), entry_exit_points::process),
+        Arc::new(ray_traversal::RayTraversal::new(snippet_library().0)),
+        PlainProcess::shared(slice_view::declaration(), slice_view::process),
+        PlainProcess::shared(background::declaration(), background::process),
+        PlainProcess::shared(compositor::declaration(), compositor::process),
+        PlainProcess::shared(color_map::declaration(), color_map::process),
+        PlainProcess::shared(canvas::declaration(), canvas::process),
+        PlainProcess::shared(image_export::declaration(), image_export::process),
     ]
 }
 

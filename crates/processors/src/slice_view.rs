@@ -5,17 +5,15 @@ use glam::{DAffine3, DVec3, Vec3};
 use rayloom_gpu::Texture;
 use rayloom_gpu::wgpu::{TextureFormat, TextureUsages};
 use rayloom_network::{
-    Choice, Declaration, ImageKind, InportDecl, Job, OutportDecl, Outputs, PortType, ProcessError,
-    Properties, PropertyDecl,
+    Choice, Declaration, ImageKind, InportDecl, Job, OutportDecl, Outputs, PortType, ProcessError, Properties,
+    PropertyDecl,
 };
 use rayloom_volume::{MAX_EXTINCTION, TransferFunction, ValueRange, Volume, fraction};
 
 use crate::{Bind, Context, Data, GpuVolume, Image, ImagePass, JobData};
 
-const SHADER: &str = concat!(
-    include_str!("../../../shaders/image/common.wgsl"),
-    include_str!("../../../shaders/image/slice_view.wgsl")
-);
+const SHADER: &str =
+    concat!(include_str!("../../../shaders/image/common.wgsl"), include_str!("../../../shaders/image/slice_view.wgsl"));
 
 /// Entries of the table that a transfer function is read from.
 const TABLE: usize = 4096;
@@ -36,8 +34,7 @@ struct Parameters {
 
 /// Ports, properties and help.
 pub fn declaration() -> Declaration {
-    let volume =
-        InportDecl::new("volume", "Volume", &[PortType::Volume]).help("The volume to cut.");
+    let volume = InportDecl::new("volume", "Volume", &[PortType::Volume]).help("The volume to cut.");
     let image = OutportDecl::new("image", "Image", PortType::Image(ImageKind::Color))
         .help("The plane in true proportions, as large as fits; transparent outside of the volume. Without depth.");
     let declaration = Declaration::new("slice_view", "Slice view", "Rendering")
@@ -56,11 +53,7 @@ fn plane_properties(declaration: Declaration) -> Declaration {
         Choice::new("x", "Across x", "y to the right, z up (voxel axes)."),
         Choice::new("y", "Across y", "x to the right, z up (voxel axes)."),
         Choice::new("z", "Across z", "x to the right, y up (voxel axes)."),
-        Choice::new(
-            "oblique",
-            "Oblique",
-            "Any plane, seen from where its normal points to.",
-        ),
+        Choice::new("oblique", "Oblique", "Any plane, seen from where its normal points to."),
     ];
     declaration
         .property(PropertyDecl::choice("plane", "Plane", "z", planes).help("Which way the plane lies."))
@@ -93,16 +86,8 @@ fn plane_properties(declaration: Declaration) -> Declaration {
 
 fn color_properties(declaration: Declaration) -> Declaration {
     let interpolations = vec![
-        Choice::new(
-            "linear",
-            "Linear",
-            "Values are interpolated between voxel centres.",
-        ),
-        Choice::new(
-            "nearest",
-            "Nearest",
-            "Every voxel is a block: what is stored, and right for labels.",
-        ),
+        Choice::new("linear", "Linear", "Values are interpolated between voxel centres."),
+        Choice::new("nearest", "Nearest", "Every voxel is a block: what is stored, and right for labels."),
     ];
     let colors = vec![
         Choice::new("window", "Window", "Grays over a window of values, opaque."),
@@ -123,7 +108,10 @@ fn color_properties(declaration: Declaration) -> Declaration {
                 .int_range(0, 3)
                 .help("The channel to show, counted from 0. Gradients are shown per voxel step."),
         )
-        .property(PropertyDecl::choice("interpolation", "Interpolation", "linear", interpolations).help("What is shown between voxel centres."))
+        .property(
+            PropertyDecl::choice("interpolation", "Interpolation", "linear", interpolations)
+                .help("What is shown between voxel centres."),
+        )
         .property(PropertyDecl::choice("colors", "Colours", "window", colors).help("How values become colours."))
         .property(
             PropertyDecl::bool("automatic", "Automatic window", true)
@@ -149,15 +137,12 @@ pub fn process(context: &mut Context, job: &Job<'_, Data>) -> Result<Outputs<Dat
     let (data, properties) = (job.volume("volume")?, job.properties);
     let volume = &*data.volume;
     let channel = properties.int("channel")?;
-    let channel = usize::try_from(channel)
-        .ok()
-        .filter(|&c| c < volume.channels as usize)
-        .ok_or_else(|| {
-            ProcessError::new(format!(
-                "channel {channel} was chosen, but the volume `{}` has {}; choose a smaller one",
-                volume.name, volume.channels
-            ))
-        })?;
+    let channel = usize::try_from(channel).ok().filter(|&c| c < volume.channels as usize).ok_or_else(|| {
+        ProcessError::new(format!(
+            "channel {channel} was chosen, but the volume `{}` has {}; choose a smaller one",
+            volume.name, volume.channels
+        ))
+    })?;
     let plane = Plane::choose(properties, volume)?;
     let colors = Colors::choose(properties, volume, channel)?;
     let uploaded = data.on_gpu(&context.gpu)?;
@@ -176,12 +161,7 @@ pub fn process(context: &mut Context, job: &Job<'_, Data>) -> Result<Outputs<Dat
         ],
         size: job.size,
     })?;
-    let image = Image {
-        color,
-        depth: None,
-        kind: ImageKind::Color,
-        view: None,
-    };
+    let image = Image { color, depth: None, kind: ImageKind::Color, view: None };
     Ok(Outputs::new().with("image", image.into()))
 }
 
@@ -203,24 +183,14 @@ struct Plane {
 impl Plane {
     fn choose(properties: &Properties, volume: &Volume) -> Result<Self, ProcessError> {
         let to_world = volume.texture_to_world();
-        let columns = [
-            to_world.matrix3.x_axis,
-            to_world.matrix3.y_axis,
-            to_world.matrix3.z_axis,
-        ];
+        let columns = [to_world.matrix3.x_axis, to_world.matrix3.y_axis, to_world.matrix3.z_axis];
         let position = properties.f64("position")?;
         let slice = |axis: usize, right: usize, up: usize| {
             let mut center = DVec3::splat(0.5);
             center[axis] = position;
             let right = columns[right].normalize();
             let up = columns[up].reject_from_normalized(right).normalize();
-            Self::spanned(
-                &to_world,
-                to_world.transform_point3(center),
-                right,
-                up,
-                Some((axis, position)),
-            )
+            Self::spanned(&to_world, to_world.transform_point3(center), right, up, Some((axis, position)))
         };
         Ok(match properties.text("plane")? {
             "x" => slice(0, 1, 2),
@@ -228,40 +198,24 @@ impl Plane {
             "oblique" => {
                 let normal = DVec3::from_array(properties.array("normal")?);
                 let normal = normal.try_normalize().ok_or_else(|| {
-                    ProcessError::new(format!("the normal of the plane is {normal}, which has no direction; give it a length"))
+                    ProcessError::new(format!(
+                        "the normal of the plane is {normal}, which has no direction; give it a length"
+                    ))
                 })?;
-                let upright = if normal.z.abs() < 0.999 {
-                    DVec3::Z
-                } else {
-                    DVec3::Y
-                };
+                let upright = if normal.z.abs() < 0.999 { DVec3::Z } else { DVec3::Y };
                 let right = upright.cross(normal).normalize();
-                let center = to_world.transform_point3(DVec3::splat(0.5))
-                    + normal * properties.f64("offset")?;
+                let center = to_world.transform_point3(DVec3::splat(0.5)) + normal * properties.f64("offset")?;
                 Self::spanned(&to_world, center, right, normal.cross(right), None)
             }
             _ => slice(2, 0, 1),
         })
     }
 
-    fn spanned(
-        to_world: &DAffine3,
-        center: DVec3,
-        right: DVec3,
-        up: DVec3,
-        fixed: Option<(usize, f64)>,
-    ) -> Self {
+    fn spanned(to_world: &DAffine3, center: DVec3, right: DVec3, up: DVec3, fixed: Option<(usize, f64)>) -> Self {
         // A box reaches half the sum of its edges in any direction.
         let m = to_world.matrix3;
         let reach = |direction: DVec3| 0.5 * (m.transpose() * direction).abs().element_sum();
-        Self {
-            center,
-            right,
-            up,
-            reach: [reach(right), reach(up)],
-            to_texture: to_world.inverse(),
-            fixed,
-        }
+        Self { center, right, up, reach: [reach(right), reach(up)], to_texture: to_world.inverse(), fixed }
     }
 
     /// Volume coordinates of the image's corner, and how they grow per pixel to the right and down.
@@ -291,33 +245,17 @@ struct Colors {
 }
 
 impl Colors {
-    fn choose(
-        properties: &Properties,
-        volume: &Volume,
-        channel: usize,
-    ) -> Result<Self, ProcessError> {
+    fn choose(properties: &Properties, volume: &Volume, channel: usize) -> Result<Self, ProcessError> {
         let range = volume.ranges()[channel];
         let colors = properties.text("colors")?;
         if colors != "window" {
-            let table = properties
-                .transfer_function("transfer_function")?
-                .table(range, TABLE);
-            return Ok(Self {
-                table,
-                gain: 1.0,
-                bias: 0.0,
-                is_opaque: colors == "opaque",
-            });
+            let table = properties.transfer_function("transfer_function")?.table(range, TABLE);
+            return Ok(Self { table, gain: 1.0, bias: 0.0, is_opaque: colors == "opaque" });
         }
         let opaque = MAX_EXTINCTION as f32;
         let table = vec![[0.0, 0.0, 0.0, opaque], [opaque; 4]];
         if properties.bool("automatic")? {
-            return Ok(Self {
-                table,
-                gain: 1.0,
-                bias: 0.0,
-                is_opaque: true,
-            });
+            return Ok(Self { table, gain: 1.0, bias: 0.0, is_opaque: true });
         }
         let [black, white] = properties.array("window")?;
         if black == white {
@@ -326,12 +264,7 @@ impl Colors {
             )));
         }
         let share = |value: f64| fraction(value, black, white);
-        Ok(Self {
-            table,
-            gain: share(range.max) - share(range.min),
-            bias: share(range.min),
-            is_opaque: true,
-        })
+        Ok(Self { table, gain: share(range.max) - share(range.min), bias: share(range.min), is_opaque: true })
     }
 }
 
@@ -343,9 +276,7 @@ fn parameters(
     channel: usize,
     size: [u32; 2],
 ) -> Result<Parameters, ProcessError> {
-    let [origin, per_x, per_y] = plane
-        .pixels(size, properties.f64("zoom")?, properties.array("pan")?)
-        .map(extended);
+    let [origin, per_x, per_y] = plane.pixels(size, properties.f64("zoom")?, properties.array("pan")?).map(extended);
     let (mut scale, mut offset) = (volume.scale, volume.offset);
     scale[channel] = (f64::from(scale[channel]) * colors.gain) as f32;
     offset[channel] = (f64::from(offset[channel]) * colors.gain + colors.bias) as f32;
@@ -369,12 +300,7 @@ fn extended(v: DVec3) -> [f32; 4] {
 fn upload_table(context: &Context, table: &[[f32; 4]]) -> Result<Texture, ProcessError> {
     let size = [table.len() as u32, 1];
     let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
-    let texture = context.gpu.texture_2d(
-        "a transfer function",
-        size,
-        TextureFormat::Rgba32Float,
-        usage,
-    )?;
+    let texture = context.gpu.texture_2d("a transfer function", size, TextureFormat::Rgba32Float, usage)?;
     context.gpu.upload(&texture, bytemuck::cast_slice(table))?;
     Ok(texture)
 }

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use rayloom_network::{
-    Choice, Declaration, Job, Level, OutportDecl, Outputs, PortType, ProcessError, ProcessorType,
-    Properties, PropertyDecl, PropertyError,
+    Choice, Declaration, Job, Level, OutportDecl, Outputs, PortType, ProcessError, ProcessorType, Properties,
+    PropertyDecl, PropertyError,
 };
 use rayloom_volume::{Field, generate};
 
@@ -20,9 +20,7 @@ pub struct VolumeGenerator {
 impl VolumeGenerator {
     /// The processor type.
     pub fn new() -> Self {
-        Self {
-            declaration: declaration(),
-        }
+        Self { declaration: declaration() }
     }
 }
 
@@ -64,22 +62,13 @@ impl ProcessorType for VolumeGenerator {
 
     fn snippet_properties(&self, current: &Properties) -> Vec<PropertyDecl> {
         chosen_field(current)
-            .map(|mut field| {
-                parameters(&mut field)
-                    .into_iter()
-                    .map(|p| p.declare())
-                    .collect()
-            })
+            .map(|mut field| parameters(&mut field).into_iter().map(|p| p.declare()).collect())
             .unwrap_or_default()
     }
 }
 
 impl Process for VolumeGenerator {
-    fn process(
-        &self,
-        context: &mut Context,
-        job: &Job<'_, Data>,
-    ) -> Result<Outputs<Data>, ProcessError> {
+    fn process(&self, context: &mut Context, job: &Job<'_, Data>) -> Result<Outputs<Data>, ProcessError> {
         let properties = job.properties;
         let mut field = chosen_field(properties)?;
         for parameter in parameters(&mut field) {
@@ -88,11 +77,7 @@ impl Process for VolumeGenerator {
         let dims = properties.array("dims")?.map(|n: f64| n as u32);
         let extent = DVec3::from_array(properties.array("extent")?);
         let volume = generate(&field, dims, extent)?;
-        Ok(outputs_of(
-            context,
-            Arc::new(volume),
-            Precision::from_id(properties.text("precision")?),
-        ))
+        Ok(outputs_of(context, "volume", Arc::new(volume), Precision::from_id(properties.text("precision")?)))
     }
 }
 
@@ -123,12 +108,12 @@ impl Parameter<'_> {
     /// The property, whose default is the current value.
     fn declare(&self) -> PropertyDecl {
         let int = |value: i64| {
-            PropertyDecl::int(self.id, self.label, value)
-                .int_range(self.range[0] as i64, self.range[1] as i64)
+            PropertyDecl::int(self.id, self.label, value).int_range(self.range[0] as i64, self.range[1] as i64)
         };
         let declared = match &self.place {
-            Place::Float(value) => PropertyDecl::float(self.id, self.label, **value)
-                .range(self.range[0], self.range[1]),
+            Place::Float(value) => {
+                PropertyDecl::float(self.id, self.label, **value).range(self.range[0], self.range[1])
+            }
             Place::Count(value) => int(i64::from(**value)),
             Place::Axis(value) => int(**value as i64),
         };
@@ -139,9 +124,7 @@ impl Parameter<'_> {
     fn read(self, properties: &Properties) -> Result<(), PropertyError> {
         match self.place {
             Place::Float(value) => *value = properties.f64(self.id)?,
-            Place::Count(value) => {
-                *value = properties.int(self.id)?.clamp(1, i64::from(u32::MAX)) as u32
-            }
+            Place::Count(value) => *value = properties.int(self.id)?.clamp(1, i64::from(u32::MAX)) as u32,
             Place::Axis(value) => *value = properties.int(self.id)?.clamp(0, 2) as usize,
         }
         Ok(())
@@ -150,20 +133,8 @@ impl Parameter<'_> {
 
 const DOMAIN: &str = "half box lengths";
 
-fn length<'a>(
-    id: &'static str,
-    label: &'static str,
-    help: &'static str,
-    value: &'a mut f64,
-) -> Parameter<'a> {
-    Parameter {
-        id,
-        label,
-        unit: DOMAIN,
-        help,
-        range: [1e-3, 10.0],
-        place: Place::Float(value),
-    }
+fn length<'a>(id: &'static str, label: &'static str, help: &'static str, value: &'a mut f64) -> Parameter<'a> {
+    Parameter { id, label, unit: DOMAIN, help, range: [1e-3, 10.0], place: Place::Float(value) }
 }
 
 /// The parameters of a field.
@@ -213,18 +184,8 @@ fn parameters(field: &mut Field) -> Vec<Parameter<'_>> {
             vec![length("bohr", "Bohr radius", "Size of the atom.", bohr)]
         }
         Field::BuckyBall { radius, sigma } => vec![
-            length(
-                "radius",
-                "Radius",
-                "Distance of the atoms from the centre.",
-                radius,
-            ),
-            length(
-                "sigma",
-                "Atom size",
-                "Standard deviation of an atom.",
-                sigma,
-            ),
+            length("radius", "Radius", "Distance of the atoms from the centre.", radius),
+            length("sigma", "Atom size", "Standard deviation of an atom.", sigma),
         ],
         Field::Checkerboard { cells } => vec![Parameter {
             id: "cells",

@@ -4,9 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
 
-use rayloom_network::{
-    Declaration, Job, Level, OutportDecl, Outputs, PortType, ProcessError, PropertyDecl,
-};
+use rayloom_network::{Declaration, Job, Level, OutportDecl, Outputs, PortType, ProcessError, PropertyDecl};
 use rayloom_volume::{Volume, formats, read};
 
 use crate::{Context, Data, Precision, Storage, VolumeData};
@@ -21,11 +19,7 @@ struct LastRead {
 
 /// Ports, properties and help.
 pub fn declaration() -> Declaration {
-    let extensions: Vec<&str> = formats()
-        .iter()
-        .flat_map(|format| format.extensions)
-        .copied()
-        .collect();
+    let extensions: Vec<&str> = formats().iter().flat_map(|format| format.extensions).copied().collect();
     let known: Vec<&str> = formats().iter().map(|format| format.help).collect();
     let file = PropertyDecl::file("file", "File", &extensions)
         .help("The volume file; its extension says which format it has.")
@@ -46,47 +40,27 @@ pub fn process(context: &mut Context, job: &Job<'_, Data>) -> Result<Outputs<Dat
     let modified = modification_time(path);
     let last: LastRead = context.take_state(job.id);
     let volume = match last.volume {
-        Some(volume) if last.path == path && last.modified == modified && modified.is_some() => {
-            volume
-        }
-        _ => Arc::new(read(path, &mut |progress| {
-            context.report(job.id, progress)
-        })?),
+        Some(volume) if last.path == path && last.modified == modified && modified.is_some() => volume,
+        _ => Arc::new(read(path, &mut |progress| context.report(job.id, progress))?),
     };
-    context.put_state(
-        job.id,
-        LastRead {
-            path: path.to_owned(),
-            modified,
-            volume: Some(volume.clone()),
-        },
-    );
-    Ok(outputs_of(context, volume, precision))
+    context.put_state(job.id, LastRead { path: path.to_owned(), modified, volume: Some(volume.clone()) });
+    Ok(outputs_of(context, "volume", volume, precision))
 }
 
 /// The outputs of a source, with notes about what is lost on the device and about values that cannot be drawn.
-pub(crate) fn outputs_of(
-    context: &Context,
-    volume: Arc<Volume>,
-    precision: Precision,
-) -> Outputs<Data> {
-    let mut notes: Vec<String> = Storage::choose(&volume, precision, context.gpu.features)
-        .loss
-        .into_iter()
-        .collect();
+pub(crate) fn outputs_of(context: &Context, outport: &str, volume: Arc<Volume>, precision: Precision) -> Outputs<Data> {
+    let mut notes: Vec<String> = Storage::choose(&volume, precision, context.gpu.features).loss.into_iter().collect();
     if volume.non_finite() > 0 {
         notes.push(format!(
             "{} voxels are NaN or infinite; NaN is drawn as the smallest value, infinities as the ends of the range.",
             volume.non_finite()
         ));
     }
-    let mut outputs = Outputs::new().with("volume", VolumeData::new(volume, precision).into());
+    let mut outputs = Outputs::new().with(outport, VolumeData::new(volume, precision).into());
     outputs.notes = notes;
     outputs
 }
 
 fn modification_time(path: &Path) -> Option<SystemTime> {
-    std::fs::metadata(path)
-        .and_then(|metadata| metadata.modified())
-        .ok()
+    std::fs::metadata(path).and_then(|metadata| metadata.modified()).ok()
 }

@@ -36,14 +36,8 @@ impl GpuVolume {
     /// Fails when a side is longer than the device allows or its memory does not suffice.
     pub fn upload(gpu: &Gpu, volume: &Volume, precision: Precision) -> Result<Self, GpuError> {
         let storage = Storage::choose(volume, precision, gpu.features);
-        let usage =
-            TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST | TextureUsages::COPY_SRC;
-        let texture = gpu.texture_3d(
-            &format!("the volume `{}`", volume.name),
-            volume.dims,
-            storage.format,
-            usage,
-        )?;
+        let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST | TextureUsages::COPY_SRC;
+        let texture = gpu.texture_3d(&format!("the volume `{}`", volume.name), volume.dims, storage.format, usage)?;
         let slice = volume.dims[0] as usize * volume.dims[1] as usize;
         let slices = (SLAB_BYTES / (slice * storage.texel_bytes())).max(1);
         with_voxels!(&volume.voxels, elements => {
@@ -54,12 +48,7 @@ impl GpuVolume {
         });
         let filterable = gpu.filterable(storage.format);
         let (scale, offset) = storage.decoding();
-        Ok(Self {
-            texture,
-            filterable,
-            scale,
-            offset,
-        })
+        Ok(Self { texture, filterable, scale, offset })
     }
 }
 
@@ -103,14 +92,9 @@ impl Storage {
     }
 
     fn for_values(volume: &Volume, precision: Precision, features: Features) -> Self {
-        let spans: Vec<Option<f64>> = (0..volume.channels)
-            .map(|channel| code_span(volume, channel))
-            .collect();
+        let spans: Vec<Option<f64>> = (0..volume.channels).map(|channel| code_span(volume, channel)).collect();
         // The codes needed to tell all stored values apart; too many for floats.
-        let codes = spans
-            .iter()
-            .try_fold(0.0, |most: f64, span| span.map(|s| most.max(s)))
-            .unwrap_or(f64::INFINITY);
+        let codes = spans.iter().try_fold(0.0, |most: f64, span| span.map(|s| most.max(s))).unwrap_or(f64::INFINITY);
         let exact_unorm16 = features.norm16 && codes <= 65535.0;
         let (number, lossless) = match precision {
             Precision::Auto if codes <= HALF_EXACT => (Number::Half, true),
@@ -127,19 +111,10 @@ impl Storage {
             _ => number.unit(),
         };
         let channels = volume.ranges().iter().zip(spans);
-        let channels = channels.map(|(&range, span)| Channel {
-            range,
-            is_gradient: false,
-            gain: gain(span),
-            bias: 0.0,
-        });
+        let channels =
+            channels.map(|(&range, span)| Channel { range, is_gradient: false, gain: gain(span), bias: 0.0 });
         let loss = (!lossless).then(|| number.loss().to_owned());
-        Self {
-            format: number.format(volume.channels),
-            loss,
-            number,
-            channels: channels.collect(),
-        }
+        Self { format: number.format(volume.channels), loss, number, channels: channels.collect() }
     }
 
     fn for_gradients(volume: &Volume, precision: Precision) -> Self {
@@ -150,41 +125,19 @@ impl Storage {
         };
         let ranges = volume.ranges();
         let range = ranges[3];
-        let steepest = ranges[..3]
-            .iter()
-            .flat_map(|r| [r.min, r.max])
-            .map(|g| per_range(g, range).abs())
-            .fold(0.0, f64::max);
+        let steepest =
+            ranges[..3].iter().flat_map(|r| [r.min, r.max]).map(|g| per_range(g, range).abs()).fold(0.0, f64::max);
         // Code 128 is zero, so that flat regions stay exactly flat.
         let (gain, bias) = match number {
             Number::Unorm8 if steepest > 0.0 => (127.0 / steepest, 128.0),
             Number::Unorm8 => (1.0, 128.0),
             _ => (1.0, 0.0),
         };
-        let gradient = Channel {
-            range,
-            is_gradient: true,
-            gain,
-            bias,
-        };
-        let value_gain = if number == Number::Unorm8 {
-            number.unit()
-        } else {
-            1.0
-        };
-        let value = Channel {
-            range,
-            is_gradient: false,
-            gain: value_gain,
-            bias: 0.0,
-        };
+        let gradient = Channel { range, is_gradient: true, gain, bias };
+        let value_gain = if number == Number::Unorm8 { number.unit() } else { 1.0 };
+        let value = Channel { range, is_gradient: false, gain: value_gain, bias: 0.0 };
         let loss = (number != Number::Float).then(|| number.loss().to_owned());
-        Self {
-            format: number.format(4),
-            loss,
-            number,
-            channels: vec![gradient, gradient, gradient, value],
-        }
+        Self { format: number.format(4), loss, number, channels: vec![gradient, gradient, gradient, value] }
     }
 
     /// Scale and offset that turn texels into normalised values; a padded fourth channel stays as it is.
@@ -205,19 +158,13 @@ impl Storage {
     fn encode<E: Element>(&self, volume: &Volume, elements: &[E]) -> Vec<u8> {
         let (channels, texel) = (self.channels.len(), self.texel_bytes());
         let mut bytes = vec![0; elements.len() / channels * texel];
-        let tasks = bytes
-            .par_chunks_mut(texel * TASK)
-            .zip(elements.par_chunks(channels * TASK));
+        let tasks = bytes.par_chunks_mut(texel * TASK).zip(elements.par_chunks(channels * TASK));
         tasks.for_each(|(bytes, elements)| {
-            for (texel, voxel) in bytes
-                .chunks_exact_mut(texel)
-                .zip(elements.chunks_exact(channels))
-            {
+            for (texel, voxel) in bytes.chunks_exact_mut(texel).zip(elements.chunks_exact(channels)) {
                 let numbers = texel.chunks_exact_mut(self.number.bytes());
                 for ((bytes, element), channel) in numbers.zip(voxel).zip(&self.channels) {
                     let normalised = channel.normalise(volume.rescaled(element.to_f64()));
-                    self.number
-                        .write(normalised * channel.gain + channel.bias, bytes);
+                    self.number.write(normalised * channel.gain + channel.bias, bytes);
                 }
             }
         });
@@ -271,9 +218,7 @@ impl Number {
         match self {
             Self::Unorm8 => "The volume was reduced to 256 steps over its value range.",
             Self::Unorm16 => "The volume was reduced to 65536 steps over its value range.",
-            Self::Half => {
-                "The volume was reduced to half floats, at most 2048 steps over its value range."
-            }
+            Self::Half => "The volume was reduced to half floats, at most 2048 steps over its value range.",
             Self::Float => "The volume was rounded to 32-bit floats.",
         }
     }

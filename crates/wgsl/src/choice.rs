@@ -162,6 +162,13 @@ impl<'a> Used<'a> {
     fn unskippable(&self) -> Option<Problem> {
         let (path, _) = self.snippets.get(&Slot::Skipping)?;
         let refuse = |message| Some(Problem { slot: Slot::Skipping, message });
+        if let Some((sampling, _)) = self.snippets.get(&Slot::Sampling).filter(|(_, declaration)| declaration.kernel.is_none()) {
+            return refuse(format!(
+                "skipping `{}` needs to know how far sampling `{}` reaches: declare it there with a line `//! kernel: APRON SPREAD`, or choose skipping `none`.",
+                stem(path),
+                stem(sampling)
+            ));
+        }
         for (output, declaration) in &self.outputs {
             let needs_visibility = match declaration.emptiness {
                 None => {

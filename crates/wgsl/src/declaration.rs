@@ -74,6 +74,15 @@ pub enum Emptiness {
     TransparentWithoutCrossing(Vec<String>),
 }
 
+/// How far a sampling snippet reaches and how far its values may leave those of the voxels it reads.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kernel {
+    /// Voxels beyond those of trilinear interpolation on either side.
+    pub apron: u32,
+    /// The span of results over the span of the voxels read; 1 when results stay within.
+    pub spread: f64,
+}
+
 /// A combination that the snippet refuses.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Forbidden {
@@ -145,6 +154,8 @@ pub struct Declaration {
     pub visibility: Visibility,
     /// Compositing only; `None` when no region can be skipped.
     pub emptiness: Option<Emptiness>,
+    /// Sampling only; `None` when nothing is known, and nothing can be skipped.
+    pub kernel: Option<Kernel>,
     /// Combinations refused.
     pub forbids: Vec<Forbidden>,
     /// Parameters in the order of the file.
@@ -172,6 +183,7 @@ pub fn parse_declaration(file: &str, text: &str) -> Result<Declaration, Diagnost
         termination: parser.termination,
         visibility: parser.visibility,
         emptiness: parser.emptiness,
+        kernel: parser.kernel,
         forbids: parser.forbids,
         parameters: parser.parameters,
     })
@@ -193,6 +205,7 @@ struct Parser {
     termination: Termination,
     visibility: Visibility,
     emptiness: Option<Emptiness>,
+    kernel: Option<Kernel>,
     forbids: Vec<Forbidden>,
     parameters: Vec<Parameter>,
 }
@@ -213,6 +226,7 @@ impl Parser {
             "terminates" => self.termination = termination(value)?,
             "visible" => self.visibility = visibility(value),
             "empty" => self.emptiness = Some(emptiness(value)?),
+            "kernel" => self.kernel = Some(kernel(value)?),
             "forbids" => self.forbids.push(forbidden(value)?),
             _ if key.starts_with("param ") => {
                 let parameter = parameter(&line["param ".len()..])?;
@@ -223,7 +237,7 @@ impl Parser {
             }
             _ => {
                 return Err(format!(
-                    "unknown key `{key}`; keys are slot, label, help, reads, absent, terminates, visible, empty, forbids and param"
+                    "unknown key `{key}`; keys are slot, label, help, reads, absent, terminates, visible, empty, kernel, forbids and param"
                 ));
             }
         }
@@ -278,6 +292,14 @@ fn emptiness(value: &str) -> Result<Emptiness, String> {
         (false, true) => Ok(Emptiness::NoCrossing(names)),
         (true, true) => Ok(Emptiness::TransparentWithoutCrossing(names)),
         _ => Err(format!("`empty` is `transparent`, `no_crossing ISOVALUES` or both, not `{value}`")),
+    }
+}
+
+fn kernel(value: &str) -> Result<Kernel, String> {
+    let form = || format!("`kernel` is written `APRON SPREAD`, such as `1 1.5`, not `{value}`");
+    match numbers(value)?[..] {
+        [apron, spread] if (0.0..=16.0).contains(&apron) && spread >= 1.0 => Ok(Kernel { apron: apron as u32, spread }),
+        _ => Err(form()),
     }
 }
 

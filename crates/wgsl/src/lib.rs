@@ -34,11 +34,11 @@ mod validate;
 
 pub use assemble::{Assembled, assemble};
 pub use choice::{Choice, Features, MAX_OUTPUTS, Problem, legal_choices};
-pub use declaration::{Declaration, Forbidden, Parameter, ParameterType, Termination, Visibility, parse_declaration};
+pub use declaration::{Declaration, Emptiness, Forbidden, Kernel, Parameter, ParameterType, READS, Termination, Visibility, parse_declaration};
 pub use diagnostic::{Diagnostic, Origin, SourceMap};
 pub use interface::{Field, Interface, ParameterLayout};
 pub use library::{Library, Source, SourceKind};
-pub use slot::{Slot, contract};
+pub use slot::{Prototype, Slot, contract};
 pub use validate::{Validated, validate};
 
 /// Path of the skeleton of the ray traversal inside the library.

@@ -264,6 +264,16 @@ impl TransferFunction2D {
             .collect()
     }
 
+    /// The largest gradient magnitude that any shape covers, data units per world unit; 0 without shapes.
+    pub fn gradient_maximum(&self) -> f64 {
+        let tops = self.primitives.iter().map(|primitive| match primitive.shape {
+            Shape::Rectangle { gradient, .. } => gradient[1],
+            Shape::Triangle { apex, base_gradient, .. } => apex[1].max(base_gradient),
+            Shape::Gaussian { center, sigma } => center[1] + GAUSSIAN_REACH * sigma[1],
+        });
+        tops.fold(0.0, f64::max)
+    }
+
     /// Whether everything on the closed interval `min ..= max` of values is transparent, whatever the gradient. It may say
     /// no where a shape only touches the interval, or lies at gradients that do not occur.
     pub fn transparent_between(&self, min: f64, max: f64) -> bool {

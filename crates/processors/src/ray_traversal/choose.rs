@@ -1,0 +1,135 @@
+//! From properties and inputs to a choice of snippets that fits the data and the device.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use rayloom_network::{Job, ProcessError};
+use rayloom_volume::VolumeRole;
+use rayloom_wgsl::{Choice, Library, MAX_OUTPUTS, Slot};
+
+use super::memory::Memory;
+use super::skipping::{Question, WORTHWHILE};
+use super::snippets::PLACES;
+use super::{Inputs, OUTPORTS};
+use crate::{Context, Data};
+
+/// What will be assembled.
+pub(super) struct Plan<'a> {
+    /// The snippets, with the edited texts of this processor.
+    pub library: Library,
+    pub choice: Choice,
+    /// The channel of the volume that is classified.
+    pub channel: u32,
+    /// What the skipping map depends on, when there is skipping.
+    pub skipping: Option<Question<'a>>,
+}
+
+pub(super) fn plan<'a>(
+    library: &Library,
+    context: &Context,
+    job: &Job<'_, Data>,
+    inputs: &Inputs<'a>,
+    memory: &mut Memory,
+    notes: &mut Vec<String>,
+) -> Result<Plan<'a>, ProcessError> {
+    let mut library = library.clone();
+    let volume = &inputs.volume.volume;
+    let channel = channel(job, inputs)?;
+    let mut snippets = BTreeMap::new();
+    let mut outputs: [Option<Arc<str>>; MAX_OUTPUTS] = Default::default();
+    for place in PLACES {
+        match place.output {
+            Some(output) if !job.wants(OUTPORTS[output]) => {}
+            Some(output) => outputs[output] = place.path(&mut library, job.properties)?,
+            None => {
+                snippets.extend(place.path(&mut library, job.properties)?.map(|path| (place.slot, path)));
+            }
+        }
+    }
+    let mut choice = Choice {
+        snippets,
+        outputs,
+        early_termination: job.properties.f64("termination_error")? > 0.0,
+        statistics: context.count_samples,
+        half_targets: job.properties.text("target")? == "16-bit",
+        channel,
+        channels: volume.channels,
+    };
+    fit_sampling(&library, context, inputs, &mut choice, notes)?;
+    let skipping = fit_skipping(&library, job, inputs, memory, &mut choice, channel)?;
+    let features = choice.check(&library).map_err(|problems| {
+        ProcessError::new(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
+    })?;
+    if features.has("gradient_volume") && volume.role != VolumeRole::GradientAndValue {
+        return Err(ProcessError::new(format!(
+            "the gradient is to be read from the volume, but `{}` holds none; insert a gradient volume processor or choose another gradient",
+            volume.name
+        )));
+    }
+    Ok(Plan { library, choice, channel, skipping })
+}
+
+/// The channel to classify: that of the property, or the value beside a gradient.
+fn channel(job: &Job<'_, Data>, inputs: &Inputs<'_>) -> Result<u32, ProcessError> {
+    let volume = &inputs.volume.volume;
+    if volume.role == VolumeRole::GradientAndValue {
+        return Ok(3);
+    }
+    let channel = job.properties.int("channel")?;
+    u32::try_from(channel).ok().filter(|&channel| channel < volume.channels).ok_or_else(|| {
+        ProcessError::new(format!(
+            "channel {channel} was chosen, but the volume `{}` has {}; choose a smaller one",
+            volume.name, volume.channels
+        ))
+    })
+}
+
+/// Where the device cannot filter the volume's format, floats are interpolated in the shader instead. A volume of spline
+/// coefficients has one channel, whatever it was made from.
+fn fit_sampling(
+    library: &Library,
+    context: &Context,
+    inputs: &Inputs<'_>,
+    choice: &mut Choice,
+    notes: &mut Vec<String>,
+) -> Result<(), ProcessError> {
+    let Some(declaration) = choice.snippets.get(&Slot::Sampling).and_then(|path| library.declaration(path)) else { return Ok(()) };
+    if declaration.reads.contains("prefiltered") {
+        (choice.channel, choice.channels) = (0, 1);
+    } else if declaration.reads.contains("filtering") && !inputs.volume.on_gpu(&context.gpu)?.filterable {
+        let path = library.path(Slot::Sampling, "trilinear");
+        choice.snippets.extend(path.map(|path| (Slot::Sampling, path)));
+        notes.push("This device cannot filter the volume's format; it is interpolated in the shader.".into());
+    }
+    Ok(())
+}
+
+/// Chooses skipping when that is left to the program: where it is legal and little enough of the volume is visible.
+fn fit_skipping<'a>(
+    library: &Library,
+    job: &Job<'_, Data>,
+    inputs: &Inputs<'a>,
+    memory: &mut Memory,
+    choice: &mut Choice,
+    channel: u32,
+) -> Result<Option<Question<'a>>, ProcessError> {
+    let volume = &inputs.volume.volume;
+    if choice.snippets.contains_key(&Slot::Skipping) {
+        // `none` asks nothing; an illegal choice is refused by the check that follows.
+        let question = Question::of(library, choice, job.properties, volume, channel)?;
+        let absent = choice.snippets.get(&Slot::Skipping).and_then(|path| library.declaration(path)).is_some_and(|d| d.absent);
+        return Ok(question.filter(|_| !absent));
+    }
+    let Some(path) = library.path(Slot::Skipping, "distance") else { return Ok(None) };
+    let mut trial = choice.clone();
+    trial.snippets.insert(Slot::Skipping, path);
+    if trial.check(library).is_err() {
+        return Ok(None);
+    }
+    let Some(question) = Question::of(library, &trial, job.properties, volume, channel)? else { return Ok(None) };
+    if question.map(memory)?.occupied > WORTHWHILE {
+        return Ok(None);
+    }
+    *choice = trial;
+    Ok(Some(question))
+}

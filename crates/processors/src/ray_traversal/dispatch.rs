@@ -1,0 +1,263 @@
+//! Binds what the assembled shader uses and runs it.
+
+use std::sync::Arc;
+
+use bytemuck::bytes_of;
+use rayloom_gpu::wgpu::{self, TextureFormat, TextureUsages};
+use rayloom_gpu::{Gpu, GpuError, Texture};
+use rayloom_network::{Job, ProcessError};
+use rayloom_volume::ValueRange;
+use rayloom_wgsl::Validated;
+use serde_json::{Map, json};
+
+use super::choose::Plan;
+use super::frame::{Frame, reference_length};
+use super::memory::{Memory, VolumeKey};
+use super::{Inputs, OUTPORTS, parameters, skipping, tables};
+use crate::{Context, Data};
+
+/// Side of a workgroup; the skeleton says `@workgroup_size(8, 8)`.
+const GROUP: u32 = 8;
+
+/// One run of the shader.
+pub(super) struct Pass<'a> {
+    pub job: &'a Job<'a, Data>,
+    pub inputs: &'a Inputs<'a>,
+    pub plan: &'a Plan<'a>,
+    pub shader: &'a Validated,
+}
+
+/// What a run leaves behind.
+pub(super) struct Drawn {
+    /// Colour and depth of each output in use.
+    pub targets: [Option<(Arc<Texture>, Arc<Texture>)>; 3],
+    /// Rays, samples and contributing samples, when they were counted.
+    pub counted: Option<Map<String, serde_json::Value>>,
+}
+
+/// A resource with what keeps it alive.
+enum Resource {
+    Texture(Arc<Texture>),
+    View(wgpu::TextureView),
+    Buffer(wgpu::Buffer),
+    Sampler(wgpu::Sampler),
+}
+
+impl Resource {
+    fn binding(&self) -> wgpu::BindingResource<'_> {
+        match self {
+            Self::Texture(texture) => wgpu::BindingResource::TextureView(&texture.view),
+            Self::View(view) => wgpu::BindingResource::TextureView(view),
+            Self::Buffer(buffer) => buffer.as_entire_binding(),
+            Self::Sampler(sampler) => wgpu::BindingResource::Sampler(sampler),
+        }
+    }
+}
+
+impl Pass<'_> {
+    pub fn run(&self, context: &mut Context, memory: &mut Memory) -> Result<Drawn, ProcessError> {
+        let targets = self.targets(context)?;
+        let counters = self.counters(&context.gpu)?;
+        let frame = self.frame(&context.gpu)?;
+        let bindings = &self.shader.interface.bindings;
+        let resources = bindings
+            .iter()
+            .map(|field| Ok((field.binding, self.resource(&field.name, context, memory, &frame, &targets, counters.as_ref())?)))
+            .collect::<Result<Vec<_>, ProcessError>>()?;
+        self.dispatch(context, &resources)?;
+        let counted = counters.map(|counters| counts(&context.gpu, &counters)).transpose()?;
+        Ok(Drawn { targets, counted })
+    }
+
+    /// Colour and depth textures of the outputs in use.
+    fn targets(&self, context: &mut Context) -> Result<[Option<(Arc<Texture>, Arc<Texture>)>; 3], ProcessError> {
+        let format = if self.plan.choice.half_targets { TextureFormat::Rgba16Float } else { TextureFormat::Rgba32Float };
+        let mut targets: [Option<(Arc<Texture>, Arc<Texture>)>; 3] = Default::default();
+        let used = self.plan.choice.outputs.iter().flatten().count() as u32;
+        let most = context.gpu.limits.max_storage_textures_per_shader_stage;
+        if 2 * used > most {
+            return Err(ProcessError::new(format!(
+                "{used} outputs need {} storage textures, but this device allows {most} (maxStorageTexturesPerShaderStage); use fewer outputs of this ray traversal",
+                2 * used
+            )));
+        }
+        for (index, target) in targets.iter_mut().enumerate() {
+            if self.plan.choice.outputs[index].is_some() {
+                let color = context.pool.get(&context.gpu, OUTPORTS[index], self.inputs.view.size, format)?;
+                let depth = context.depth_target("view depth", self.inputs.view.size)?;
+                *target = Some((color, depth));
+            }
+        }
+        Ok(targets)
+    }
+
+    fn counters(&self, gpu: &Gpu) -> Result<Option<wgpu::Buffer>, GpuError> {
+        self.plan.choice.statistics.then(|| gpu.storage("sample counters", &[0u32; 6])).transpose()
+    }
+
+    fn range(&self) -> ValueRange {
+        self.inputs.volume.volume.ranges()[self.plan.channel as usize]
+    }
+
+    fn reads(&self, word: &str) -> bool {
+        self.shader.assembled.features.has(word)
+    }
+
+    fn frame(&self, gpu: &Gpu) -> Result<Frame, ProcessError> {
+        let volume = &self.inputs.volume.volume;
+        let mut frame = Frame::new(self.inputs.view, volume, self.range(), self.job.properties)?;
+        if !self.reads("prefiltered") {
+            let stored = self.inputs.volume.on_gpu(gpu)?;
+            (frame.texel_scale, frame.texel_offset) = (stored.scale, stored.offset);
+        }
+        if let Some(question) = &self.plan.skipping {
+            frame.brick_scale = question.brick_scale();
+        }
+        if self.reads("labels") {
+            let labels = self.inputs.labels.unwrap_or(self.inputs.volume);
+            let (stored, range) = (labels.on_gpu(gpu)?, labels.volume.ranges()[0]);
+            frame.label_minimum = (range.min + range.width() * f64::from(stored.offset[0])) as f32;
+            frame.label_span = (range.width() * f64::from(stored.scale[0])) as f32;
+        }
+        Ok(frame)
+    }
+
+    /// The resource behind a global variable of the shader.
+    fn resource(
+        &self,
+        name: &str,
+        context: &Context,
+        memory: &mut Memory,
+        frame: &Frame,
+        targets: &[Option<(Arc<Texture>, Arc<Texture>)>; 3],
+        counters: Option<&wgpu::Buffer>,
+    ) -> Result<Resource, ProcessError> {
+        let gpu = &context.gpu;
+        let properties = self.job.properties;
+        let range = self.range();
+        let function = properties.transfer_function("transfer_function")?;
+        Ok(match name {
+            "frame" => Resource::Buffer(gpu.buffer("frame", bytes_of(frame), wgpu::BufferUsages::UNIFORM)?),
+            "params" => {
+                let bytes = parameters::bytes(self.shader, properties, range)?;
+                Resource::Buffer(gpu.buffer("snippet parameters", &bytes, wgpu::BufferUsages::UNIFORM)?)
+            }
+            "volume" if self.reads("prefiltered") => Resource::Texture(self.spline(gpu, memory)?),
+            "volume" => Resource::View(self.inputs.volume.on_gpu(gpu)?.texture.view.clone()),
+            "linear_sampler" => Resource::Sampler(linear_sampler(gpu)),
+            "entry_points" => Resource::Texture(self.inputs.entry.color.clone()),
+            "exit_points" => Resource::Texture(self.inputs.exit.color.clone()),
+            "transfer_table" => {
+                Resource::Texture(memory.table.get((function.clone(), range), || tables::table(gpu, function, range))?)
+            }
+            "transfer_table_2d" => {
+                let function = properties.transfer_function_2d("transfer_function_2d")?;
+                Resource::Texture(memory.table_2d.get((function.clone(), range), || tables::table_2d(gpu, function, range))?)
+            }
+            "preintegrated_table" => {
+                let length = self.reads("preintegration_full").then(|| self.segment_length()).transpose()?;
+                let key = (function.clone(), range, length);
+                Resource::Texture(memory.preintegrated.get(key, || tables::preintegrated(gpu, function, range, length))?)
+            }
+            "label_volume" => {
+                let labels = self.inputs.labels.unwrap_or(self.inputs.volume);
+                Resource::View(labels.on_gpu(gpu)?.texture.view.clone())
+            }
+            "label_table" => {
+                let table = properties.labels("label_table")?;
+                Resource::Texture(memory.labels.get((table.clone(), range), || tables::labels(gpu, table, range))?)
+            }
+            "skip_map" => match &self.plan.skipping {
+                Some(question) => Resource::Texture(question.texture(gpu, memory)?),
+                None => return Err(unknown(name)),
+            },
+            "counters" => Resource::Buffer(counters.cloned().ok_or_else(|| unknown(name))?),
+            _ => self.output(name, targets)?,
+        })
+    }
+
+    fn output(&self, name: &str, targets: &[Option<(Arc<Texture>, Arc<Texture>)>; 3]) -> Result<Resource, ProcessError> {
+        let found = (0..).zip(targets).find_map(|(index, target)| {
+            let (color, depth) = target.as_ref()?;
+            match name.strip_prefix(&format!("out{}_", index + 1))? {
+                "color" => Some(color.clone()),
+                "depth" => Some(depth.clone()),
+                _ => None,
+            }
+        });
+        found.map(Resource::Texture).ok_or_else(|| unknown(name))
+    }
+
+    /// Length of one step in reference lengths; along the mean direction where the voxels are not cubes.
+    fn segment_length(&self) -> Result<f64, ProcessError> {
+        let volume = &self.inputs.volume.volume;
+        let rate = self.job.properties.f64("sampling_rate")?;
+        Ok(super::frame::mean_spacing(volume) / rate / reference_length(volume, self.job.properties)?)
+    }
+
+    fn spline(&self, gpu: &Gpu, memory: &mut Memory) -> Result<Arc<Texture>, ProcessError> {
+        let volume = &self.inputs.volume.volume;
+        let coefficients = skipping::coefficients(memory, volume, self.plan.channel)?;
+        let key = (VolumeKey(volume.clone()), self.plan.channel);
+        let texture = memory.coefficient_texture.get(key, || {
+            let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
+            let texture = gpu.texture_3d("spline coefficients", volume.dims, TextureFormat::R32Float, usage)?;
+            if let rayloom_volume::Voxels::F32(values) = &coefficients.voxels {
+                gpu.upload(&texture, bytemuck::cast_slice(values))?;
+            }
+            Ok::<_, GpuError>(Arc::new(texture))
+        })?;
+        Ok(texture)
+    }
+
+    fn dispatch(&self, context: &mut Context, resources: &[(u32, Resource)]) -> Result<(), GpuError> {
+        let label = format!("ray traversal `{}`", self.job.id);
+        let pipeline = context.pipelines.compute(&context.gpu, &label, &self.shader.assembled.text, "traverse")?;
+        let (gpu, timer) = (&context.gpu, &context.timer);
+        gpu.guarded(&label, || {
+            let entries: Vec<_> = resources
+                .iter()
+                .map(|(binding, resource)| wgpu::BindGroupEntry { binding: *binding, resource: resource.binding() })
+                .collect();
+            let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some(&label),
+                layout: &pipeline.get_bind_group_layout(0),
+                entries: &entries,
+            });
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some(&label),
+                timestamp_writes: timer.compute_pass(),
+            });
+            pass.set_pipeline(&pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            let [width, height] = self.inputs.view.size.map(|pixels| pixels.div_ceil(GROUP));
+            pass.dispatch_workgroups(width, height, 1);
+            drop(pass);
+            gpu.queue.submit([encoder.finish()]);
+        })
+    }
+}
+
+fn unknown(name: &str) -> ProcessError {
+    ProcessError::new(format!(
+        "the shader binds `{name}`, which the ray traversal does not provide; a snippet may bind only what its `reads` name"
+    ))
+}
+
+fn linear_sampler(gpu: &Gpu) -> wgpu::Sampler {
+    gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some("linear"),
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        ..Default::default()
+    })
+}
+
+fn counts(gpu: &Gpu, counters: &wgpu::Buffer) -> Result<Map<String, serde_json::Value>, GpuError> {
+    let bytes = gpu.read_buffer(counters)?;
+    let words: Vec<u32> = bytes.chunks_exact(4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]])).collect();
+    let wide = |slot: usize| u64::from(words[slot]) | u64::from(words[slot + 1]) << 32;
+    let named = [("rays", wide(0)), ("samples", wide(2)), ("contributing", wide(4))];
+    Ok(named.into_iter().map(|(name, count)| (name.to_owned(), json!(count))).collect())
+}

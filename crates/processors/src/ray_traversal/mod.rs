@@ -1,0 +1,142 @@
+//! Ray traversal: walks the rays between entry and exit points; its shader is assembled from snippets.
+
+mod choose;
+mod declare;
+mod dispatch;
+mod frame;
+mod memory;
+mod parameters;
+mod skipping;
+mod snippets;
+mod tables;
+
+use std::sync::Arc;
+
+use rayloom_network::{
+    Declaration, ImageKind, Job, Outputs, ProcessError, ProcessorType, Properties, PropertyDecl,
+};
+use rayloom_wgsl::Library;
+
+use crate::process::Process;
+use crate::{Context, Data, Image, JobData, View, VolumeData};
+
+pub use memory::Memory;
+pub use snippets::{snippet_library, user_folder};
+
+/// Outports, in the order of the shader's outputs.
+const OUTPORTS: [&str; 3] = ["image", "image2", "image3"];
+
+/// The processor type.
+pub struct RayTraversal {
+    declaration: Declaration,
+    library: Arc<Library>,
+}
+
+impl RayTraversal {
+    /// A ray traversal that can choose from a library of snippets.
+    pub fn new(library: Arc<Library>) -> Self {
+        Self { declaration: declare::declaration(&library), library }
+    }
+}
+
+impl ProcessorType for RayTraversal {
+    fn declaration(&self) -> &Declaration {
+        &self.declaration
+    }
+
+    fn snippet_properties(&self, current: &Properties) -> Vec<PropertyDecl> {
+        parameters::declarations(&self.library, current)
+    }
+}
+
+impl Process for RayTraversal {
+    fn process(&self, context: &mut Context, job: &Job<'_, Data>) -> Result<Outputs<Data>, ProcessError> {
+        let mut memory: Memory = context.take_state(job.id);
+        let result = self.traverse(context, job, &mut memory);
+        context.put_state(job.id, memory);
+        result
+    }
+}
+
+/// What arrives at the inports, checked against each other.
+struct Inputs<'a> {
+    volume: &'a Arc<VolumeData>,
+    labels: Option<&'a Arc<VolumeData>>,
+    entry: &'a Arc<Image>,
+    exit: &'a Arc<Image>,
+    view: &'a View,
+}
+
+impl<'a> Inputs<'a> {
+    fn of(job: &'a Job<'_, Data>) -> Result<Self, ProcessError> {
+        let (volume, entry, exit) = (job.volume("volume")?, job.image("entry")?, job.image("exit")?);
+        let labels = match job.input("labels") {
+            Some(Data::Volume(labels)) => Some(labels),
+            _ => None,
+        };
+        let view = entry.view.as_ref().ok_or_else(|| {
+            ProcessError::new("the entry points do not say which camera saw them; take them from an entry/exit points processor")
+        })?;
+        if entry.size() != exit.size() || exit.view.as_ref() != Some(view) {
+            return Err(ProcessError::new(
+                "entry and exit points belong to different views; take both from one entry/exit points processor or link the cameras",
+            ));
+        }
+        let inputs = Self { volume, labels, entry, exit, view };
+        inputs.check_boxes()?;
+        Ok(inputs)
+    }
+
+    /// Everything must be given in the coordinates of one box.
+    fn check_boxes(&self) -> Result<(), ProcessError> {
+        const SAME: f64 = 1e-4;
+        let own = self.volume.volume.texture_to_world();
+        let scale = own.matrix3.to_cols_array().iter().fold(f64::MIN_POSITIVE, |largest, x| largest.max(x.abs()));
+        let differs = |other: glam::DAffine3| {
+            let pairs = own.to_cols_array().into_iter().zip(other.to_cols_array());
+            pairs.into_iter().any(|(a, b)| (a - b).abs() > SAME * scale)
+        };
+        if differs(self.view.texture_to_world) {
+            return Err(ProcessError::new(format!(
+                "the entry points were made for another box than that of the volume `{}`; connect the same volume to the proxy geometry",
+                self.volume.volume.name
+            )));
+        }
+        match self.labels {
+            Some(labels) if differs(labels.volume.texture_to_world()) => Err(ProcessError::new(format!(
+                "the labels `{}` and the volume `{}` fill different boxes in the world; use labels of the same scan",
+                labels.volume.name, self.volume.volume.name
+            ))),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl RayTraversal {
+    fn traverse(
+        &self,
+        context: &mut Context,
+        job: &Job<'_, Data>,
+        memory: &mut Memory,
+    ) -> Result<Outputs<Data>, ProcessError> {
+        let inputs = Inputs::of(job)?;
+        let mut notes = Vec::new();
+        let plan = choose::plan(&self.library, context, job, &inputs, memory, &mut notes)?;
+        let shader = memory.shader(&plan.library, &plan.choice)?;
+        let pass = dispatch::Pass { job, inputs: &inputs, plan: &plan, shader: &shader };
+        let drawn = pass.run(context, memory)?;
+
+        let mut outputs = Outputs::new();
+        for (outport, target) in OUTPORTS.iter().zip(drawn.targets) {
+            if let Some((color, depth)) = target {
+                let image = Image { color, depth: Some(depth), kind: ImageKind::Color, view: Some(inputs.view.clone()) };
+                outputs = outputs.with(*outport, image.into());
+            }
+        }
+        outputs.notes = notes;
+        if let Some(counted) = drawn.counted {
+            outputs.statistics = counted;
+        }
+        Ok(outputs)
+    }
+}
