@@ -77,13 +77,8 @@ impl Gpu {
         };
         let descriptor = Self::descriptor(&adapter, options.hidden);
         let info = adapter.get_info();
-        let (device, queue) =
-            pollster::block_on(adapter.request_device(&descriptor)).map_err(|error| {
-                GpuError::NoDevice {
-                    adapter: info.name.clone(),
-                    report: error.to_string(),
-                }
-            })?;
+        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
+            .map_err(|error| GpuError::NoDevice { adapter: info.name.clone(), report: error.to_string() })?;
         Ok(Self::from_device(info, device, queue))
     }
 
@@ -92,10 +87,7 @@ impl Gpu {
     pub fn descriptor(adapter: &wgpu::Adapter, hidden: Hidden) -> wgpu::DeviceDescriptor<'static> {
         let mut wanted = wgpu::Features::empty();
         wanted.set(wgpu::Features::TIMESTAMP_QUERY, !hidden.timestamps);
-        wanted.set(
-            wgpu::Features::FLOAT32_FILTERABLE,
-            !hidden.float32_filterable,
-        );
+        wanted.set(wgpu::Features::FLOAT32_FILTERABLE, !hidden.float32_filterable);
         wanted.set(wgpu::Features::TEXTURE_FORMAT_16BIT_NORM, !hidden.norm16);
         let mut limits = adapter.limits();
         // More than zero would need the immediates feature, which nothing here uses.
@@ -112,13 +104,7 @@ impl Gpu {
     pub fn from_device(info: wgpu::AdapterInfo, device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let features = Features::of(device.features());
         let limits = Arc::new(device.limits());
-        Self {
-            device,
-            queue,
-            info: Arc::new(info),
-            features,
-            limits,
-        }
+        Self { device, queue, info: Arc::new(info), features, limits }
     }
 
     /// Runs `work` and returns the first error the device raised meanwhile, named after `what` is under way.
@@ -126,12 +112,8 @@ impl Gpu {
     /// Errors outside such a guard would end the program, hence all recording and creating happens within one. Guards
     /// may be nested: the innermost takes the error.
     pub fn guarded<T>(&self, what: &str, work: impl FnOnce() -> T) -> Result<T, GpuError> {
-        let scopes = [
-            wgpu::ErrorFilter::Internal,
-            wgpu::ErrorFilter::OutOfMemory,
-            wgpu::ErrorFilter::Validation,
-        ]
-        .map(|filter| self.device.push_error_scope(filter));
+        let scopes = [wgpu::ErrorFilter::Internal, wgpu::ErrorFilter::OutOfMemory, wgpu::ErrorFilter::Validation]
+            .map(|filter| self.device.push_error_scope(filter));
         let result = work();
         let mut first = None;
         for scope in scopes.into_iter().rev() {
@@ -148,10 +130,7 @@ impl Gpu {
     pub fn wait(&self, what: &str) -> Result<(), GpuError> {
         match self.device.poll(wgpu::PollType::wait_indefinitely()) {
             Ok(_) => Ok(()),
-            Err(error) => Err(GpuError::Lost {
-                what: what.to_owned(),
-                message: error.to_string(),
-            }),
+            Err(error) => Err(GpuError::Lost { what: what.to_owned(), message: error.to_string() }),
         }
     }
 
@@ -159,37 +138,22 @@ impl Gpu {
     pub fn describe(&self) -> String {
         let info = &self.info;
         let driver = [info.driver.as_str(), info.driver_info.as_str()].join(" ");
-        format!(
-            "{} ({:?}, {:?}, {})",
-            info.name,
-            info.device_type,
-            info.backend,
-            driver.trim()
-        )
+        format!("{} ({:?}, {:?}, {})", info.name, info.device_type, info.backend, driver.trim())
     }
 }
 
 fn fastest_adapter(instance: &wgpu::Instance) -> Result<wgpu::Adapter, GpuError> {
-    let options = wgpu::RequestAdapterOptions {
-        power_preference: wgpu::PowerPreference::HighPerformance,
-        ..Default::default()
-    };
-    pollster::block_on(instance.request_adapter(&options)).map_err(|error| GpuError::NoAdapter {
-        report: error.to_string(),
-    })
+    let options =
+        wgpu::RequestAdapterOptions { power_preference: wgpu::PowerPreference::HighPerformance, ..Default::default() };
+    pollster::block_on(instance.request_adapter(&options))
+        .map_err(|error| GpuError::NoAdapter { report: error.to_string() })
 }
 
 fn named_adapter(instance: &wgpu::Instance, name: &str) -> Result<wgpu::Adapter, GpuError> {
     let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));
-    let names: Vec<String> = adapters
-        .iter()
-        .map(|adapter| adapter.get_info().name)
-        .collect();
+    let names: Vec<String> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
     let wanted = name.to_lowercase();
-    adapters
-        .into_iter()
-        .find(|adapter| adapter.get_info().name.to_lowercase().contains(&wanted))
-        .ok_or_else(|| GpuError::NoAdapter {
-            report: format!("none is called `{name}`; there is [{}]", names.join(", ")),
-        })
+    adapters.into_iter().find(|adapter| adapter.get_info().name.to_lowercase().contains(&wanted)).ok_or_else(|| {
+        GpuError::NoAdapter { report: format!("none is called `{name}`; there is [{}]", names.join(", ")) }
+    })
 }

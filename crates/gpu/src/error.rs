@@ -13,9 +13,7 @@ pub enum GpuError {
         report: String,
     },
     /// The adapter refused to open a device.
-    #[error(
-        "the graphics adapter `{adapter}` refused to open a device: {report}. Updating its driver may help"
-    )]
+    #[error("the graphics adapter `{adapter}` refused to open a device: {report}. Updating its driver may help")]
     NoDevice {
         /// Name of the adapter.
         adapter: String,
@@ -23,9 +21,7 @@ pub enum GpuError {
         report: String,
     },
     /// A texture or buffer is larger than the device allows.
-    #[error(
-        "{what} needs {found} {unit}, but this device's limit {limit} is {allowed}; use a smaller one"
-    )]
+    #[error("{what} needs {found} {unit}, but this device's limit {limit} is {allowed}; use a smaller one")]
     OverLimit {
         /// The resource, by its label.
         what: String,
@@ -61,9 +57,7 @@ pub enum GpuError {
         purpose: &'static str,
     },
     /// The device's memory is exhausted.
-    #[error(
-        "the graphics device has no memory left for {what}; use a smaller volume, image or precision"
-    )]
+    #[error("the graphics device has no memory left for {what}; use a smaller volume, image or precision")]
     OutOfMemory {
         /// The work that was under way.
         what: String,
@@ -93,11 +87,9 @@ impl GpuError {
         let what = what.to_owned();
         match error {
             wgpu::Error::OutOfMemory { .. } => Self::OutOfMemory { what },
-            wgpu::Error::Validation { description, .. }
-            | wgpu::Error::Internal { description, .. } => Self::Refused {
-                what,
-                message: description,
-            },
+            wgpu::Error::Validation { description, .. } | wgpu::Error::Internal { description, .. } => {
+                Self::Refused { what, message: description }
+            }
         }
     }
 }

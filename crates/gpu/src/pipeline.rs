@@ -71,15 +71,14 @@ impl PipelineCache {
         self.counts.misses += 1;
         let module = self.module(gpu, label, wgsl)?;
         let pipeline = gpu.guarded(&format!("the shader of {label}"), || {
-            gpu.device
-                .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                    label: Some(label),
-                    layout: None,
-                    module: &module,
-                    entry_point: Some(entry_point),
-                    compilation_options: Default::default(),
-                    cache: None,
-                })
+            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(label),
+                layout: None,
+                module: &module,
+                entry_point: Some(entry_point),
+                compilation_options: Default::default(),
+                cache: None,
+            })
         })?;
         self.compute.insert(key, pipeline.clone());
         Ok(pipeline)
@@ -101,28 +100,21 @@ impl PipelineCache {
         }
         self.counts.misses += 1;
         let module = self.module(gpu, label, wgsl)?;
-        let pipeline = gpu.guarded(&format!("the shader of {label}"), || {
-            render_pipeline(gpu, label, &module, state)
-        })?;
+        let pipeline =
+            gpu.guarded(&format!("the shader of {label}"), || render_pipeline(gpu, label, &module, state))?;
         self.render.insert(key, pipeline.clone());
         Ok(pipeline)
     }
 
-    fn module(
-        &mut self,
-        gpu: &Gpu,
-        label: &str,
-        wgsl: &str,
-    ) -> Result<wgpu::ShaderModule, GpuError> {
+    fn module(&mut self, gpu: &Gpu, label: &str, wgsl: &str) -> Result<wgpu::ShaderModule, GpuError> {
         if let Some(module) = self.modules.get(wgsl) {
             return Ok(module.clone());
         }
         let module = gpu.guarded(&format!("the shader of {label}"), || {
-            gpu.device
-                .create_shader_module(wgpu::ShaderModuleDescriptor {
-                    label: Some(label),
-                    source: wgpu::ShaderSource::Wgsl(wgsl.into()),
-                })
+            gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(label),
+                source: wgpu::ShaderSource::Wgsl(wgsl.into()),
+            })
         })?;
         self.modules.insert(wgsl.to_owned(), module.clone());
         Ok(module)
@@ -134,12 +126,7 @@ impl PipelineCache {
     }
 }
 
-fn render_pipeline(
-    gpu: &Gpu,
-    label: &str,
-    module: &wgpu::ShaderModule,
-    state: &RenderState,
-) -> wgpu::RenderPipeline {
+fn render_pipeline(gpu: &Gpu, label: &str, module: &wgpu::ShaderModule, state: &RenderState) -> wgpu::RenderPipeline {
     let buffers: Vec<_> = state
         .buffers
         .iter()
@@ -152,26 +139,25 @@ fn render_pipeline(
         })
         .collect();
     let targets: Vec<_> = state.targets.iter().cloned().map(Some).collect();
-    gpu.device
-        .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some(label),
-            layout: None,
-            vertex: wgpu::VertexState {
-                module,
-                entry_point: Some(&state.vertex),
-                compilation_options: Default::default(),
-                buffers: &buffers,
-            },
-            primitive: state.primitive,
-            depth_stencil: state.depth.clone(),
-            multisample: Default::default(),
-            fragment: Some(wgpu::FragmentState {
-                module,
-                entry_point: Some(&state.fragment),
-                compilation_options: Default::default(),
-                targets: &targets,
-            }),
-            multiview_mask: None,
-            cache: None,
-        })
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(label),
+        layout: None,
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some(&state.vertex),
+            compilation_options: Default::default(),
+            buffers: &buffers,
+        },
+        primitive: state.primitive,
+        depth_stencil: state.depth.clone(),
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some(&state.fragment),
+            compilation_options: Default::default(),
+            targets: &targets,
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
 }

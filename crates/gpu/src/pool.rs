@@ -80,8 +80,5 @@ fn usages(gpu: &Gpu, format: TextureFormat) -> TextureUsages {
         | TextureUsages::RENDER_ATTACHMENT
         | TextureUsages::COPY_SRC
         | TextureUsages::COPY_DST;
-    wanted
-        & format
-            .guaranteed_format_features(gpu.device.features())
-            .allowed_usages
+    wanted & format.guaranteed_format_features(gpu.device.features()).allowed_usages
 }

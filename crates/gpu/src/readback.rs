@@ -15,12 +15,7 @@ impl Gpu {
     }
 
     /// Like [`Gpu::read_rgba_f32`] for the box of `size` texels at `origin`, which must lie within the texture.
-    pub fn read_region(
-        &self,
-        texture: &Texture,
-        origin: [u32; 3],
-        size: [u32; 3],
-    ) -> Result<Vec<[f32; 4]>, GpuError> {
+    pub fn read_region(&self, texture: &Texture, origin: [u32; 3], size: [u32; 3]) -> Result<Vec<[f32; 4]>, GpuError> {
         let decode = decoder(texture.format).ok_or_else(|| GpuError::Unsupported {
             what: texture.label.clone(),
             format: texture.format,
@@ -29,24 +24,13 @@ impl Gpu {
         let bytes = self.read_texels(texture, origin, size)?;
         let channels = usize::from(texture.format.components());
         let texel_bytes = texture.texel_bytes() as usize;
-        Ok(bytes
-            .chunks_exact(texel_bytes)
-            .map(|texel| numbers(texel, channels, decode))
-            .collect())
+        Ok(bytes.chunks_exact(texel_bytes).map(|texel| numbers(texel, channels, decode)).collect())
     }
 
     /// The raw texels of the box of `size` texels at `origin`, without padding. Waits for the device.
-    pub fn read_texels(
-        &self,
-        texture: &Texture,
-        origin: [u32; 3],
-        size: [u32; 3],
-    ) -> Result<Vec<u8>, GpuError> {
+    pub fn read_texels(&self, texture: &Texture, origin: [u32; 3], size: [u32; 3]) -> Result<Vec<u8>, GpuError> {
         let inside = (0..3).all(|axis| {
-            size[axis] > 0
-                && origin[axis]
-                    .checked_add(size[axis])
-                    .is_some_and(|end| end <= texture.size[axis])
+            size[axis] > 0 && origin[axis].checked_add(size[axis]).is_some_and(|end| end <= texture.size[axis])
         });
         if !inside {
             return Err(GpuError::WrongSize {
@@ -65,11 +49,7 @@ impl Gpu {
                 wgpu::TexelCopyTextureInfo {
                     texture: &texture.texture,
                     mip_level: 0,
-                    origin: wgpu::Origin3d {
-                        x: origin[0],
-                        y: origin[1],
-                        z: origin[2],
-                    },
+                    origin: wgpu::Origin3d { x: origin[0], y: origin[1], z: origin[2] },
                     aspect: wgpu::TextureAspect::All,
                 },
                 wgpu::TexelCopyBufferInfo {
@@ -80,20 +60,12 @@ impl Gpu {
                         rows_per_image: Some(size[1]),
                     },
                 },
-                wgpu::Extent3d {
-                    width: size[0],
-                    height: size[1],
-                    depth_or_array_layers: size[2],
-                },
+                wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: size[2] },
             );
             self.queue.submit([encoder.finish()]);
         })?;
         let padded = self.map_and_copy(&staging, &texture.label)?;
-        Ok(padded
-            .chunks_exact(padded_row)
-            .flat_map(|row| &row[..row_bytes])
-            .copied()
-            .collect())
+        Ok(padded.chunks_exact(padded_row).flat_map(|row| &row[..row_bytes]).copied().collect())
     }
 
     /// The bytes of a buffer created with `COPY_SRC`. Waits for the device.
@@ -122,24 +94,15 @@ impl Gpu {
 
     fn map_and_copy(&self, staging: &wgpu::Buffer, what: &str) -> Result<Vec<u8>, GpuError> {
         let what = format!("{what} was read back");
-        let lost = |message: String| GpuError::Lost {
-            what: what.clone(),
-            message,
-        };
+        let lost = |message: String| GpuError::Lost { what: what.clone(), message };
         let (sender, receiver) = mpsc::channel();
         staging.map_async(wgpu::MapMode::Read, .., move |result| {
             // The receiver lives until the end of this function; if it does not, nobody wants the news.
             let _ = sender.send(result);
         });
         self.wait(&what)?;
-        receiver
-            .recv()
-            .map_err(|error| lost(error.to_string()))?
-            .map_err(|error| lost(error.to_string()))?;
-        let bytes = staging
-            .get_mapped_range(..)
-            .map_err(|error| lost(error.to_string()))?
-            .to_vec();
+        receiver.recv().map_err(|error| lost(error.to_string()))?.map_err(|error| lost(error.to_string()))?;
+        let bytes = staging.get_mapped_range(..).map_err(|error| lost(error.to_string()))?.to_vec();
         staging.unmap();
         Ok(bytes)
     }
@@ -152,26 +115,16 @@ fn decoder(format: TextureFormat) -> Option<(usize, Decode)> {
     use TextureFormat as F;
     Some(match format {
         F::R8Unorm | F::Rg8Unorm | F::Rgba8Unorm => (1, |b| f32::from(b[0]) / 255.0),
-        F::R16Unorm | F::Rg16Unorm | F::Rgba16Unorm => {
-            (2, |b| f32::from(u16::from_le_bytes([b[0], b[1]])) / 65535.0)
-        }
-        F::R16Float | F::Rg16Float | F::Rgba16Float => {
-            (2, |b| f16::from_le_bytes([b[0], b[1]]).to_f32())
-        }
-        F::R32Float | F::Rg32Float | F::Rgba32Float => {
-            (4, |b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
-        }
+        F::R16Unorm | F::Rg16Unorm | F::Rgba16Unorm => (2, |b| f32::from(u16::from_le_bytes([b[0], b[1]])) / 65535.0),
+        F::R16Float | F::Rg16Float | F::Rgba16Float => (2, |b| f16::from_le_bytes([b[0], b[1]]).to_f32()),
+        F::R32Float | F::Rg32Float | F::Rgba32Float => (4, |b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])),
         _ => return None,
     })
 }
 
 fn numbers(texel: &[u8], channels: usize, (width, decode): (usize, Decode)) -> [f32; 4] {
     let mut rgba = [0.0, 0.0, 0.0, 1.0];
-    for (value, bytes) in rgba
-        .iter_mut()
-        .zip(texel.chunks_exact(width))
-        .take(channels)
-    {
+    for (value, bytes) in rgba.iter_mut().zip(texel.chunks_exact(width)).take(channels) {
         *value = decode(bytes);
     }
     rgba

@@ -50,13 +50,7 @@ impl Gpu {
         format: TextureFormat,
         usage: TextureUsages,
     ) -> Result<Texture, GpuError> {
-        self.create_texture(
-            label,
-            [size[0], size[1], 1],
-            wgpu::TextureDimension::D2,
-            format,
-            usage,
-        )
+        self.create_texture(label, [size[0], size[1], 1], wgpu::TextureDimension::D2, format, usage)
     }
 
     /// Creates a 3-D texture; its contents are zero. Fails with the name of the limit when a side is too long.
@@ -80,19 +74,11 @@ impl Gpu {
     ) -> Result<Texture, GpuError> {
         self.check_size(label, size, dimension)?;
         if !self.device.features().contains(format.required_features()) {
-            return Err(GpuError::Unsupported {
-                what: label.to_owned(),
-                format,
-                purpose: "at all",
-            });
+            return Err(GpuError::Unsupported { what: label.to_owned(), format, purpose: "at all" });
         }
         let descriptor = wgpu::TextureDescriptor {
             label: Some(label),
-            size: wgpu::Extent3d {
-                width: size[0],
-                height: size[1],
-                depth_or_array_layers: size[2],
-            },
+            size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: size[2] },
             mip_level_count: 1,
             sample_count: 1,
             dimension,
@@ -105,21 +91,10 @@ impl Gpu {
             let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
             (texture, view)
         })?;
-        Ok(Texture {
-            texture,
-            view,
-            size,
-            format,
-            label: label.to_owned(),
-        })
+        Ok(Texture { texture, view, size, format, label: label.to_owned() })
     }
 
-    fn check_size(
-        &self,
-        label: &str,
-        size: [u32; 3],
-        dimension: wgpu::TextureDimension,
-    ) -> Result<(), GpuError> {
+    fn check_size(&self, label: &str, size: [u32; 3], dimension: wgpu::TextureDimension) -> Result<(), GpuError> {
         if size.contains(&0) {
             let found = format!("{} x {} x {} texels", size[0], size[1], size[2]);
             return Err(GpuError::WrongSize {
@@ -129,14 +104,8 @@ impl Gpu {
             });
         }
         let (limit, allowed) = match dimension {
-            wgpu::TextureDimension::D3 => (
-                "maxTextureDimension3D",
-                self.limits.max_texture_dimension_3d,
-            ),
-            _ => (
-                "maxTextureDimension2D",
-                self.limits.max_texture_dimension_2d,
-            ),
+            wgpu::TextureDimension::D3 => ("maxTextureDimension3D", self.limits.max_texture_dimension_3d),
+            _ => ("maxTextureDimension2D", self.limits.max_texture_dimension_2d),
         };
         match size.into_iter().max() {
             Some(found) if found > allowed => Err(GpuError::OverLimit {
@@ -159,39 +128,25 @@ impl Gpu {
                 expected: format!("{} bytes", target.bytes()),
             });
         }
-        let slice_bytes =
-            u64::from(target.size[0]) * u64::from(target.size[1]) * target.texel_bytes();
-        let slices_at_once =
-            (STAGING_BYTES / slice_bytes).clamp(1, u64::from(target.size[2])) as u32;
+        let slice_bytes = u64::from(target.size[0]) * u64::from(target.size[1]) * target.texel_bytes();
+        let slices_at_once = (STAGING_BYTES / slice_bytes).clamp(1, u64::from(target.size[2])) as u32;
         let chunks = bytes.chunks(slice_bytes as usize * slices_at_once as usize);
-        for (first, chunk) in (0..target.size[2])
-            .step_by(slices_at_once as usize)
-            .zip(chunks)
-        {
+        for (first, chunk) in (0..target.size[2]).step_by(slices_at_once as usize).zip(chunks) {
             self.upload_slices(target, first, chunk)?;
         }
         Ok(())
     }
 
     /// Fills whole slices of a texture from slice `first` on; as many as there are bytes for.
-    pub fn upload_slices(
-        &self,
-        target: &Texture,
-        first: u32,
-        bytes: &[u8],
-    ) -> Result<(), GpuError> {
+    pub fn upload_slices(&self, target: &Texture, first: u32, bytes: &[u8]) -> Result<(), GpuError> {
         let row_bytes = u64::from(target.size[0]) * target.texel_bytes();
         let slice_bytes = row_bytes * u64::from(target.size[1]);
         let slices = (bytes.len() as u64 / slice_bytes.max(1)) as u32;
-        if u64::from(slices) * slice_bytes != bytes.len() as u64 || first + slices > target.size[2]
-        {
+        if u64::from(slices) * slice_bytes != bytes.len() as u64 || first + slices > target.size[2] {
             return Err(GpuError::WrongSize {
                 what: target.label.clone(),
                 found: format!("{} bytes for slices from {first} on", bytes.len()),
-                expected: format!(
-                    "whole slices of {slice_bytes} bytes, at most {}",
-                    target.size[2]
-                ),
+                expected: format!("whole slices of {slice_bytes} bytes, at most {}", target.size[2]),
             });
         }
         self.guarded(&target.label, || {
@@ -199,11 +154,7 @@ impl Gpu {
                 wgpu::TexelCopyTextureInfo {
                     texture: &target.texture,
                     mip_level: 0,
-                    origin: wgpu::Origin3d {
-                        x: 0,
-                        y: 0,
-                        z: first,
-                    },
+                    origin: wgpu::Origin3d { x: 0, y: 0, z: first },
                     aspect: wgpu::TextureAspect::All,
                 },
                 bytes,
@@ -212,11 +163,7 @@ impl Gpu {
                     bytes_per_row: Some(row_bytes as u32),
                     rows_per_image: Some(target.size[1]),
                 },
-                wgpu::Extent3d {
-                    width: target.size[0],
-                    height: target.size[1],
-                    depth_or_array_layers: slices,
-                },
+                wgpu::Extent3d { width: target.size[0], height: target.size[1], depth_or_array_layers: slices },
             );
             // Submitting lets the device take the staged bytes now instead of piling them up.
             self.queue.submit([]);

@@ -26,16 +26,8 @@ struct Queries {
 impl Timer {
     /// A timer, switched on.
     pub fn new(gpu: &Gpu) -> Result<Self, GpuError> {
-        let queries = if gpu.features.timestamps {
-            Some(Queries::new(gpu)?)
-        } else {
-            None
-        };
-        Ok(Self {
-            queries,
-            used: Cell::new(0),
-            enabled: true,
-        })
+        let queries = if gpu.features.timestamps { Some(Queries::new(gpu)?) } else { None };
+        Ok(Self { queries, used: Cell::new(0), enabled: true })
     }
 
     /// Switches measuring on or off. Reading a measurement waits for the device, so off is faster.
@@ -101,13 +93,8 @@ impl Timer {
             .map(|b| u64::from_le_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]]))
             .collect();
         // Drivers may reset their counter between passes; such a pair counts as nothing.
-        let total: u64 = ticks
-            .chunks_exact(2)
-            .map(|pair| pair[1].saturating_sub(pair[0]))
-            .sum();
-        Ok(Some(Duration::from_secs_f64(
-            total as f64 * queries.period * 1e-9,
-        )))
+        let total: u64 = ticks.chunks_exact(2).map(|pair| pair[1].saturating_sub(pair[0])).sum();
+        Ok(Some(Duration::from_secs_f64(total as f64 * queries.period * 1e-9)))
     }
 }
 
