@@ -95,7 +95,9 @@ pub fn process(context: &mut Context, job: &Job<'_, Data>) -> Result<Outputs<Dat
         gain: job.properties.f64("gain")? as f32,
     };
     let color = context.color_target("a composite", size)?;
-    let depth = context.depth_target("the depth of a composite", size)?;
+    // Writing beyond a texture does nothing, so one texel serves when there is no depth.
+    let depth_size = if has_depth { size } else { [1, 1] };
+    let depth = context.depth_target("the depth of a composite", depth_size)?;
     let no_depth = context.blank_depth();
     context.run_image_pass(&ImagePass {
         label: "compositor",
