@@ -1,2 +1,46 @@
-//! xtask
-fn main() {}
+//! The chores of the project; the standard library is all they need, so that they build in a moment.
+
+mod adapter;
+mod chores;
+mod command;
+
+use std::process::ExitCode;
+
+const HELP: &str = "\
+Chores of the project: cargo xtask CHORE
+
+  picture   build, render the flagship network to out/brain.png and say where it is
+  test      check formatting, lint, run all tests, build the documentation
+  golden    render the golden images anew (look at the difference before you commit it)
+  docs      write docs/processors and docs/snippets anew from the declarations
+  bench     run the benches
+
+`picture` and `test` need a Vulkan adapter. Where there is none they install Mesa's software driver on Debian and
+Ubuntu (saying so first) and print what to install elsewhere.
+";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let result = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        ["picture"] => chores::picture(),
+        ["test"] => chores::test(),
+        ["golden"] => chores::golden(),
+        ["docs"] => chores::docs(),
+        ["bench"] => chores::bench(),
+        ["help" | "--help" | "-h"] => {
+            print!("{HELP}");
+            return ExitCode::SUCCESS;
+        }
+        _ => {
+            eprint!("{HELP}");
+            return ExitCode::from(2);
+        }
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("error: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! What can be written on the command line. Everything that does not depend on a file is checked here.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use rayloom_network::Address;
+use serde_json::Value as Json;
+
+/// The extensions of the files that a picture can be written to.
+const PICTURES: [&str; 3] = ["png", "exr", "npy"];
+
+/// Pictures are at most this wide and high, as a canvas is.
+const MAX_SIZE: u32 = 16_384;
+
+/// The command line of Rayloom.
+#[derive(Debug, Parser)]
+#[command(name = "rayloom", version, arg_required_else_help = true)]
+#[command(about = "Renders saved networks of volume raycasting.")]
+#[command(
+    after_help = "Exit code: 0 when all is well, 1 when something failed (one message says what, where and what to \
+                        do), 2 when the command line cannot be understood."
+)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// One command each.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Evaluate a network and write a picture.
+    Render(RenderArgs),
+    /// Say whether a network can be rendered, and if not, why. Needs no graphics adapter.
+    Check {
+        /// The network file (JSON).
+        network: PathBuf,
+    },
+    /// List what networks are made of.
+    List(ListArgs),
+    /// Print the assembled WGSL of a ray traversal, each part with the file and line it comes from.
+    Shader {
+        /// The network file (JSON).
+        network: PathBuf,
+        /// Id of the processor in the network.
+        processor: String,
+        /// Set a property first; may be repeated. The value is JSON, or a bare word for a text.
+        #[arg(long, value_name = "PROCESSOR.PROPERTY=JSON", value_parser = setting)]
+        set: Vec<Setting>,
+    },
+    /// Describe a volume file: size, values, place in the world.
+    Info {
+        /// The volume file; `rayloom list formats` says what can be read.
+        volume: PathBuf,
+    },
+    /// Print the graphics adapter that would be used.
+    Adapter,
+}
+
+/// Arguments of `rayloom render`.
+#[derive(Debug, Args)]
+pub struct RenderArgs {
+    /// The network file (JSON).
+    pub network: PathBuf,
+    /// Set a property first; may be repeated, in this order. The value is JSON, or a bare word for a text.
+    /// Of a camera or light only the fields to change need be given.
+    #[arg(long, value_name = "PROCESSOR.PROPERTY=JSON", value_parser = setting)]
+    pub set: Vec<Setting>,
+    /// Size of the picture in pixels, in place of the canvas's.
+    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size)]
+    pub size: Option<[u32; 2]>,
+    /// Write the image at this port instead of the canvas's.
+    #[arg(long, value_name = "PROCESSOR.PORT", value_parser = address)]
+    pub port: Option<Address>,
+    /// Where to write: .png (8 bits, straight alpha), .exr (floats and depth) or .npy (float32, height x width x 4,
+    /// premultiplied, row 0 at the top).
+    #[arg(short, long, value_name = "FILE", value_parser = picture_file)]
+    pub output: PathBuf,
+    /// Write what the evaluation did as JSON: adapter, times and reasons of every run, rays and samples.
+    #[arg(long, value_name = "FILE.json")]
+    pub stats: Option<PathBuf>,
+}
+
+/// Arguments of `rayloom list`.
+#[derive(Debug, Args)]
+pub struct ListArgs {
+    /// What to list.
+    pub what: Listed,
+    /// Print JSON with everything that is declared.
+    #[arg(long)]
+    pub json: bool,
+    /// Write one Markdown page each into this folder instead (processors and snippets).
+    #[arg(long, value_name = "FOLDER", conflicts_with = "json")]
+    pub pages: Option<PathBuf>,
+}
+
+/// What can be listed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Listed {
+    /// Types of processors with ports and properties.
+    Processors,
+    /// Snippets that fill the slots of the ray loop.
+    Snippets,
+    /// File formats of volumes and pictures.
+    Formats,
+}
+
+/// A property and the value it is to have.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setting {
+    /// The property.
+    pub property: Address,
+    /// Its value.
+    pub value: Json,
+}
+
+fn setting(text: &str) -> Result<Setting, String> {
+    let (property, value) = text
+        .split_once('=')
+        .ok_or("there is no `=`; write PROCESSOR.PROPERTY=JSON, such as canvas.size='[800, 600]'")?;
+    Ok(Setting { property: address(property.trim())?, value: json(value)? })
+}
+
+/// JSON, or the text itself where it cannot be meant as JSON.
+fn json(text: &str) -> Result<Json, String> {
+    match serde_json::from_str(text) {
+        Ok(json) => Ok(json),
+        Err(error) if text.trim_start().starts_with(['{', '[', '"']) => {
+            Err(format!("the value is not JSON: {error}; check its quotes and brackets"))
+        }
+        Err(_) => Ok(Json::from(text)),
+    }
+}
+
+fn address(text: &str) -> Result<Address, String> {
+    text.parse().map_err(|error: rayloom_network::AddressError| error.to_string())
+}
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let side = |text: &str| text.trim().parse().ok().filter(|side| (1..=MAX_SIZE).contains(side));
+    let sides = text.split_once(['x', 'X']).and_then(|(width, height)| Some([side(width)?, side(height)?]));
+    sides.ok_or_else(|| format!("write WIDTHxHEIGHT in pixels, each from 1 to {MAX_SIZE}, such as 800x600"))
+}
+
+fn picture_file(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase()).unwrap_or_default();
+    if PICTURES.contains(&extension.as_str()) {
+        return Ok(path);
+    }
+    let found = if extension.is_empty() { "no extension".to_owned() } else { format!("the extension .{extension}") };
+    Err(format!("the file has {found}; pictures are written as .png, .exr or .npy"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        use clap::CommandFactory;
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn settings_are_json_or_bare_words() {
+        let value = |text| setting(text).map(|setting| setting.value);
+        assert_eq!(value("a.b=2"), Ok(Json::from(2)));
+        assert_eq!(value("a.b=8-bit"), Ok(Json::from("8-bit")));
+        assert_eq!(value("a.b=../x=y.nii"), Ok(Json::from("../x=y.nii")));
+        assert_eq!(value("a.b=[1, 2]"), Ok(Json::from(vec![1, 2])));
+        for refused in ["a.b", "a=1", "a.b={\"x\":", "a.b=\"open"] {
+            assert!(setting(refused).is_err(), "{refused}");
+        }
+    }
+
+    #[test]
+    fn sizes_and_files_are_checked() {
+        assert_eq!(size("640x480"), Ok([640, 480]));
+        for refused in ["640", "0x5", "5x0", "-1x3", "1x16385", "axb"] {
+            assert!(size(refused).is_err(), "{refused}");
+        }
+        assert!(picture_file("a.PNG").is_ok());
+        assert!(picture_file("a").is_err() && picture_file("a.jpg").is_err());
+    }
+}

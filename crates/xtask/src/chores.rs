@@ -1,0 +1,86 @@
+//! What each chore does.
+
+use std::path::PathBuf;
+
+use crate::adapter;
+use crate::command::{cargo, program, root, run, succeeds};
+
+/// The network behind the picture in the README.
+const FLAGSHIP: &str = "networks/brain.json";
+/// Where its picture goes.
+const PICTURE: &str = "out/brain.png";
+
+/// Builds the program and renders the flagship network.
+pub fn picture() -> Result<(), String> {
+    let rayloom = build("release")?;
+    adapter::ensure(&rayloom)?;
+    let picture = root().join(PICTURE);
+    let folder = root().join("out");
+    std::fs::create_dir_all(&folder).map_err(|error| format!("{} cannot be made: {error}", folder.display()))?;
+    run(&mut program(&rayloom.to_string_lossy(), &["render", FLAGSHIP, "-o", PICTURE]))?;
+    println!("The picture is at {}", picture.display());
+    Ok(())
+}
+
+/// Everything that must hold before a change is merged; goes on after a failure and sums up at the end.
+pub fn test() -> Result<(), String> {
+    // The tests render, so that without an adapter nothing else is worth waiting for.
+    adapter::ensure(&build("dev")?)?;
+    let nextest = succeeds(&mut cargo(&["nextest", "--version"]));
+    let tests = if nextest {
+        cargo(&["nextest", "run", "--workspace", "--no-fail-fast"])
+    } else {
+        cargo(&["test", "--workspace", "--lib", "--bins", "--tests", "--no-fail-fast"])
+    };
+    let mut documentation = cargo(&["doc", "--workspace", "--no-deps", "--quiet"]);
+    documentation.env("RUSTDOCFLAGS", "-D warnings");
+    let steps = [
+        ("formatting", cargo(&["fmt", "--all", "--check"])),
+        ("lints", cargo(&["clippy", "--workspace", "--all-targets", "--quiet", "--", "-D", "warnings"])),
+        ("tests", tests),
+        ("documentation tests", cargo(&["test", "--workspace", "--doc", "--quiet"])),
+        ("documentation", documentation),
+    ];
+    let results: Vec<_> = steps.into_iter().map(|(name, mut command)| (name, run(&mut command))).collect();
+    eprintln!("\nSummary");
+    for (name, result) in &results {
+        eprintln!("  {name:<22}{}", if result.is_ok() { "passed" } else { "FAILED" });
+    }
+    let failed: Vec<&str> = results.iter().filter(|(_, result)| result.is_err()).map(|(name, _)| *name).collect();
+    if failed.is_empty() { Ok(()) } else { Err(format!("failed: {}", failed.join(", "))) }
+}
+
+/// Rewrites the golden images.
+pub fn golden() -> Result<(), String> {
+    adapter::ensure(&build("dev")?)?;
+    let mut test = cargo(&["test", "--package", "rayloom-tests", "--test", "golden"]);
+    run(test.env("RAYLOOM_UPDATE_GOLDEN", "1"))
+}
+
+/// Rewrites the pages that are generated from declarations. Pages of what does not exist any more go, too.
+pub fn docs() -> Result<(), String> {
+    let rayloom = build("dev")?;
+    for what in ["processors", "snippets"] {
+        let folder = root().join("docs").join(what);
+        if folder.exists() {
+            std::fs::remove_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+        }
+        let pages = folder.to_string_lossy();
+        run(&mut program(&rayloom.to_string_lossy(), &["list", what, "--pages", &pages]))?;
+    }
+    Ok(())
+}
+
+/// Runs the benches.
+pub fn bench() -> Result<(), String> {
+    adapter::ensure(&build("release")?)?;
+    run(&mut cargo(&["bench", "--workspace", "--benches"]))
+}
+
+/// Builds the command line and returns where it is.
+fn build(profile: &str) -> Result<PathBuf, String> {
+    run(&mut cargo(&["build", "--package", "rayloom", "--profile", profile]))?;
+    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), |dir| root().join(dir));
+    let folder = if profile == "dev" { "debug" } else { profile };
+    Ok(target.join(folder).join(format!("rayloom{}", std::env::consts::EXE_SUFFIX)))
+}
