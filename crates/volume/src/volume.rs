@@ -53,9 +53,7 @@ pub enum VolumeError {
         translation: [f64; 3],
     },
     /// Slope or intercept make no sense.
-    #[error(
-        "the slope must be finite and not zero and the intercept finite, but they are {slope} and {intercept}"
-    )]
+    #[error("the slope must be finite and not zero and the intercept finite, but they are {slope} and {intercept}")]
     Rescale {
         /// The factor.
         slope: f64,
@@ -63,9 +61,7 @@ pub enum VolumeError {
         intercept: f64,
     },
     /// The role does not fit the voxels.
-    #[error(
-        "a volume of gradients and values has four f32 channels, but this one has {channels} of {element}"
-    )]
+    #[error("a volume of gradients and values has four f32 channels, but this one has {channels} of {element}")]
     Role {
         /// Channels of a voxel.
         channels: u32,
@@ -118,10 +114,7 @@ impl Volume {
     ) -> Result<Self, VolumeError> {
         let expected = element_count(dims, channels)?;
         if voxels.len() != expected {
-            return Err(VolumeError::Length {
-                expected,
-                found: voxels.len(),
-            });
+            return Err(VolumeError::Length { expected, found: voxels.len() });
         }
         check_transform(&index_to_world)?;
         Ok(Self {
@@ -158,10 +151,7 @@ impl Volume {
     pub fn with_role(mut self, role: VolumeRole) -> Result<Self, VolumeError> {
         let fits = self.channels == 4 && matches!(self.voxels, Voxels::F32(_));
         if role == VolumeRole::GradientAndValue && !fits {
-            return Err(VolumeError::Role {
-                channels: self.channels,
-                element: self.voxels.element_type(),
-            });
+            return Err(VolumeError::Role { channels: self.channels, element: self.voxels.element_type() });
         }
         self.role = role;
         Ok(self)
@@ -176,8 +166,7 @@ impl Volume {
     #[inline]
     pub fn position(&self, [i, j, k]: [u32; 3], channel: u32) -> usize {
         let [nx, ny, _] = self.dims.map(|n| n as usize);
-        ((k as usize * ny + j as usize) * nx + i as usize) * self.channels as usize
-            + channel as usize
+        ((k as usize * ny + j as usize) * nx + i as usize) * self.channels as usize + channel as usize
     }
 
     /// The value of a voxel in data units, as stored: it may be NaN or infinite.
@@ -213,8 +202,7 @@ impl Volume {
     pub fn normalised(&self, channel: u32) -> Vec<f32> {
         let range = self.ranges()[channel as usize];
         let (channels, channel) = (self.channels as usize, channel as usize);
-        let normalise =
-            |stored: f64| range.normalise(range.finite_value(self.rescaled(stored))) as f32;
+        let normalise = |stored: f64| range.normalise(range.finite_value(self.rescaled(stored))) as f32;
         with_voxels!(&self.voxels, elements => elements.par_chunks_exact(channels).map(|voxel| normalise(voxel[channel].to_f64())).collect())
     }
 
@@ -256,32 +244,19 @@ impl Volume {
 
     /// Maps texture coordinates (the box is `0 ..= 1`) to world coordinates.
     pub fn texture_to_world(&self) -> DAffine3 {
-        self.index_to_world
-            * DAffine3::from_translation(DVec3::splat(-0.5))
-            * DAffine3::from_scale(self.dims_f64())
+        self.index_to_world * DAffine3::from_translation(DVec3::splat(-0.5)) * DAffine3::from_scale(self.dims_f64())
     }
 
     fn statistics(&self) -> &Statistics {
         self.statistics.get_or_init(|| {
             let (extremes, non_finite) =
                 with_voxels!(&self.voxels, elements => extremes(elements, self.channels as usize));
-            let stored: Vec<_> = extremes
-                .iter()
-                .map(|e| e.unwrap_or(ValueRange::new(0.0, 0.0)))
-                .collect();
+            let stored: Vec<_> = extremes.iter().map(|e| e.unwrap_or(ValueRange::new(0.0, 0.0))).collect();
             let ranges = extremes
                 .iter()
-                .map(|e| {
-                    e.map_or(ValueRange::new(0.0, 0.0), |range| {
-                        self.rescaled_range(range)
-                    })
-                })
+                .map(|e| e.map_or(ValueRange::new(0.0, 0.0), |range| self.rescaled_range(range)))
                 .collect();
-            Statistics {
-                ranges,
-                stored,
-                non_finite,
-            }
+            Statistics { ranges, stored, non_finite }
         })
     }
 
@@ -303,10 +278,7 @@ pub(crate) fn element_count(dims: [u32; 3], channels: u32) -> Result<usize, Volu
     if !(1..=4).contains(&channels) {
         return Err(VolumeError::Channels(channels));
     }
-    let count = dims
-        .iter()
-        .chain([&channels])
-        .try_fold(1_u64, |product, &n| product.checked_mul(u64::from(n)));
+    let count = dims.iter().chain([&channels]).try_fold(1_u64, |product, &n| product.checked_mul(u64::from(n)));
     count
         .and_then(|count| isize::try_from(count).ok())
         .map(isize::unsigned_abs)
@@ -316,18 +288,11 @@ pub(crate) fn element_count(dims: [u32; 3], channels: u32) -> Result<usize, Volu
 fn check_transform(transform: &DAffine3) -> Result<(), VolumeError> {
     let m = transform.matrix3;
     let axes = [m.x_axis, m.y_axis, m.z_axis];
-    let unit = DMat3::from_cols(
-        axes[0].normalize_or_zero(),
-        axes[1].normalize_or_zero(),
-        axes[2].normalize_or_zero(),
-    );
+    let unit = DMat3::from_cols(axes[0].normalize_or_zero(), axes[1].normalize_or_zero(), axes[2].normalize_or_zero());
     if transform.is_finite() && unit.determinant().abs() > 1e-9 {
         return Ok(());
     }
-    Err(VolumeError::Transform {
-        columns: axes.map(|a| a.to_array()),
-        translation: transform.translation.to_array(),
-    })
+    Err(VolumeError::Transform { columns: axes.map(|a| a.to_array()), translation: transform.translation.to_array() })
 }
 
 /// The finite extremes of every channel (none where no element is finite) and the number of elements that are not finite.
@@ -336,12 +301,7 @@ fn extremes<E: Element>(elements: &[E], channels: usize) -> (Vec<Option<ValueRan
     let chunks = elements.par_chunks(CHUNK / channels * channels);
     let (extremes, non_finite) = chunks.map(|chunk| chunk_extremes(chunk, channels)).reduce(
         || ([(E::HIGHEST, E::LOWEST); 4], 0),
-        |(a, m), (b, n)| {
-            (
-                std::array::from_fn(|c| (smaller(a[c].0, b[c].0), larger(a[c].1, b[c].1))),
-                m + n,
-            )
-        },
+        |(a, m), (b, n)| (std::array::from_fn(|c| (smaller(a[c].0, b[c].0), larger(a[c].1, b[c].1))), m + n),
     );
     let ranges = extremes[..channels]
         .iter()
@@ -357,22 +317,14 @@ fn chunk_extremes<E: Element>(chunk: &[E], channels: usize) -> ([(E, E); 4], u64
         let mut fold = |element: E| {
             let finite = element.finite();
             *low = if finite { smaller(*low, element) } else { *low };
-            *high = if finite {
-                larger(*high, element)
-            } else {
-                *high
-            };
+            *high = if finite { larger(*high, element) } else { *high };
             non_finite += u64::from(!finite);
         };
         // One channel is the common case, and a loop without stride is the one that is vectorised.
         if channels == 1 {
             chunk.iter().for_each(|&element| fold(element));
         } else {
-            chunk
-                .iter()
-                .skip(channel)
-                .step_by(channels)
-                .for_each(|&element| fold(element));
+            chunk.iter().skip(channel).step_by(channels).for_each(|&element| fold(element));
         }
     }
     (result, non_finite)

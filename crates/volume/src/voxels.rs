@@ -29,18 +29,8 @@ pub enum ElementType {
 
 impl ElementType {
     /// Every element type, in the order of declaration.
-    pub const ALL: [Self; 10] = [
-        Self::U8,
-        Self::I8,
-        Self::U16,
-        Self::I16,
-        Self::U32,
-        Self::I32,
-        Self::U64,
-        Self::I64,
-        Self::F32,
-        Self::F64,
-    ];
+    pub const ALL: [Self; 10] =
+        [Self::U8, Self::I8, Self::U16, Self::I16, Self::U32, Self::I32, Self::U64, Self::I64, Self::F32, Self::F64];
 
     /// The size of one element in bytes: 1, 2, 4 or 8.
     pub fn size(self) -> usize {

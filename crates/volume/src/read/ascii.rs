@@ -23,31 +23,15 @@ pub(super) fn read<E: Element>(
     while (elements.len() as u64) < count {
         let word = next_word(&mut reader).map_err(data.io("read the voxels"))?;
         if word.is_empty() {
-            let (file, header, found) = (
-                data.file.to_owned(),
-                header.file.to_owned(),
-                elements.len() as u64 * size,
-            );
-            return Err(ReadError::TooShort {
-                file,
-                header,
-                expected: count * size,
-                found,
-            });
+            let (file, header, found) = (data.file.to_owned(), header.file.to_owned(), elements.len() as u64 * size);
+            return Err(ReadError::TooShort { file, header, expected: count * size, found });
         }
         elements.push(parse::<E>(&word).ok_or_else(|| {
             let expected = format!("a number of type {}", E::TYPE);
-            data.header(
-                format!("voxel number {}", elements.len()),
-                String::from_utf8_lossy(&word),
-                expected,
-            )
+            data.header(format!("voxel number {}", elements.len()), String::from_utf8_lossy(&word), expected)
         })?);
         if elements.len() % (1 << 20) == 0 || elements.len() as u64 == count {
-            progress(Progress {
-                done: elements.len() as u64 * size,
-                total: count * size,
-            });
+            progress(Progress { done: elements.len() as u64 * size, total: count * size });
         }
     }
     Ok(elements)
@@ -65,11 +49,7 @@ fn next_word(reader: &mut impl BufRead) -> std::io::Result<Vec<u8>> {
         if buffer.is_empty() {
             return Ok(word);
         }
-        let start = if word.is_empty() {
-            buffer.iter().take_while(|&&b| is_separator(b)).count()
-        } else {
-            0
-        };
+        let start = if word.is_empty() { buffer.iter().take_while(|&&b| is_separator(b)).count() } else { 0 };
         let rest = &buffer[start..];
         let end = rest.iter().position(|&b| is_separator(b));
         word.extend_from_slice(&rest[..end.unwrap_or(rest.len())]);
@@ -89,11 +69,7 @@ fn parse<E: Element>(word: &[u8]) -> Option<E> {
     }
     let wide: i128 = text.parse().ok()?;
     let bytes = wide.to_ne_bytes();
-    let at = if cfg!(target_endian = "big") {
-        bytes.len() - size_of::<E>()
-    } else {
-        0
-    };
+    let at = if cfg!(target_endian = "big") { bytes.len() - size_of::<E>() } else { 0 };
     let element: E = bytemuck::pod_read_unaligned(&bytes[at..at + size_of::<E>()]);
     let fits = wide >= E::LOWEST.to_f64() as i128 && wide <= highest::<E>();
     fits.then_some(element)

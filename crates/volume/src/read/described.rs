@@ -46,38 +46,22 @@ struct Description {
 pub(super) fn read_header(path: &Path) -> Result<RawLayout, ReadError> {
     let blame = Blame { file: path };
     let bytes = text::head(blame)?;
-    let description: Description = serde_json::from_slice(&bytes).map_err(|error| {
-        blame.header(
-            "the description",
-            error,
-            "an object with raw, dims, type and so on",
-        )
-    })?;
+    let description: Description = serde_json::from_slice(&bytes)
+        .map_err(|error| blame.header("the description", error, "an object with raw, dims, type and so on"))?;
     let mut dims = [0; 3];
     for (axis, dim) in dims.iter_mut().enumerate() {
-        *dim = dimension(
-            blame,
-            &format!("`dims[{axis}]`"),
-            description.dims[axis].into(),
-        )?;
+        *dim = dimension(blame, &format!("`dims[{axis}]`"), description.dims[axis].into())?;
     }
     let found = &description.r#type;
-    let element = ElementType::from_id(found).ok_or_else(|| {
-        blame.header(
-            "`type`",
-            found,
-            "one of u8, i8, u16, i16, u32, i32, u64, i64, f32, f64",
-        )
-    })?;
+    let element = ElementType::from_id(found)
+        .ok_or_else(|| blame.header("`type`", found, "one of u8, i8, u16, i16, u32, i32, u64, i64, f32, f64"))?;
 
     let mut layout = RawLayout::raw(path, beside(path, &description.raw), dims, element);
     layout.channels = description.channels.unwrap_or(1);
     layout.endian = endian(blame, description.endian.as_deref())?;
     layout.encoding = encoding(blame, description.encoding.as_deref())?;
     match layout.encoding {
-        Encoding::Raw | Encoding::Ascii => {
-            layout.start = Start::At(description.offset.unwrap_or(0))
-        }
+        Encoding::Raw | Encoding::Ascii => layout.start = Start::At(description.offset.unwrap_or(0)),
         Encoding::Gzip | Encoding::Zlib => layout.skip_unpacked = description.offset.unwrap_or(0),
     }
     layout.slope = description.slope.unwrap_or(1.0);
@@ -108,17 +92,8 @@ fn encoding(blame: Blame<'_>, found: Option<&str>) -> Result<Encoding, ReadError
 }
 
 fn transform(description: &Description) -> DAffine3 {
-    let mut axes = description
-        .directions
-        .map_or([DVec3::X, DVec3::Y, DVec3::Z], |rows| {
-            rows.map(DVec3::from_array)
-        });
+    let mut axes = description.directions.map_or([DVec3::X, DVec3::Y, DVec3::Z], |rows| rows.map(DVec3::from_array));
     let spacing = description.spacing.unwrap_or([1.0; 3]);
-    axes.iter_mut()
-        .zip(spacing)
-        .for_each(|(axis, size)| *axis *= size);
-    affine(
-        axes,
-        DVec3::from_array(description.origin.unwrap_or_default()),
-    )
+    axes.iter_mut().zip(spacing).for_each(|(axis, size)| *axis *= size);
+    affine(axes, DVec3::from_array(description.origin.unwrap_or_default()))
 }

@@ -67,7 +67,7 @@ pub enum ReadError {
         /// The file with the header.
         file: PathBuf,
         /// What is wrong with the volume.
-        source: VolumeError,
+        source: Box<VolumeError>,
     },
 }
 
@@ -80,47 +80,24 @@ pub(super) struct Blame<'a> {
 impl Blame<'_> {
     pub fn io(self, action: &'static str) -> impl Fn(std::io::Error) -> ReadError {
         let file = self.file.to_owned();
-        move |source| ReadError::Io {
-            file: file.clone(),
-            action,
-            source,
-        }
+        move |source| ReadError::Io { file: file.clone(), action, source }
     }
 
-    pub fn header(
-        self,
-        field: impl Into<String>,
-        found: impl ToString,
-        expected: impl Into<String>,
-    ) -> ReadError {
+    pub fn header(self, field: impl Into<String>, found: impl ToString, expected: impl Into<String>) -> ReadError {
         let found = match found.to_string() {
             text if text.is_empty() => "missing".to_owned(),
-            text if text.chars().count() > 80 => {
-                text.chars().take(80).chain("...".chars()).collect()
-            }
+            text if text.chars().count() > 80 => text.chars().take(80).chain("...".chars()).collect(),
             text => text,
         };
-        ReadError::Header {
-            file: self.file.to_owned(),
-            field: field.into(),
-            found,
-            expected: expected.into(),
-        }
+        ReadError::Header { file: self.file.to_owned(), field: field.into(), found, expected: expected.into() }
     }
 
     pub fn unsupported(self, what: impl Into<String>, advice: impl Into<String>) -> ReadError {
-        ReadError::Unsupported {
-            file: self.file.to_owned(),
-            what: what.into(),
-            advice: advice.into(),
-        }
+        ReadError::Unsupported { file: self.file.to_owned(), what: what.into(), advice: advice.into() }
     }
 
     pub fn volume(self) -> impl Fn(VolumeError) -> ReadError {
         let file = self.file.to_owned();
-        move |source| ReadError::Volume {
-            file: file.clone(),
-            source,
-        }
+        move |source| ReadError::Volume { file: file.clone(), source: Box::new(source) }
     }
 }

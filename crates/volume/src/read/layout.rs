@@ -15,11 +15,7 @@ pub(super) enum Endian {
 }
 
 impl Endian {
-    pub const NATIVE: Self = if cfg!(target_endian = "big") {
-        Self::Big
-    } else {
-        Self::Little
-    };
+    pub const NATIVE: Self = if cfg!(target_endian = "big") { Self::Big } else { Self::Little };
 }
 
 /// How the bytes of the voxels are packed.
@@ -85,46 +81,25 @@ impl RawLayout {
 
     /// How many bytes the unpacked voxels have; checked against overflow, not yet against any file.
     pub fn byte_count(&self, blame: Blame<'_>) -> Result<u64, ReadError> {
-        let count =
-            crate::volume::element_count(self.dims, self.channels).map_err(blame.volume())?;
-        let bytes = (count as u64)
-            .checked_mul(self.element.size() as u64)
-            .filter(|&bytes| isize::try_from(bytes).is_ok());
-        bytes.ok_or_else(|| {
-            blame.volume()(crate::VolumeError::TooLarge {
-                dims: self.dims,
-                channels: self.channels,
-            })
-        })
+        let count = crate::volume::element_count(self.dims, self.channels).map_err(blame.volume())?;
+        let bytes =
+            (count as u64).checked_mul(self.element.size() as u64).filter(|&bytes| isize::try_from(bytes).is_ok());
+        bytes.ok_or_else(|| blame.volume()(crate::VolumeError::TooLarge { dims: self.dims, channels: self.channels }))
     }
 
     /// Checks, before any voxel is read, that the numbers of the header make a volume.
     pub fn check(&self, blame: Blame<'_>) -> Result<(), ReadError> {
-        let one = Volume::new(
-            "",
-            [1; 3],
-            1,
-            crate::Voxels::U8(vec![0]),
-            self.index_to_world,
-        );
-        one.and_then(|one| one.with_rescale(self.slope, self.intercept))
-            .map(drop)
-            .map_err(blame.volume())
+        let one = Volume::new("", [1; 3], 1, crate::Voxels::U8(vec![0]), self.index_to_world);
+        one.and_then(|one| one.with_rescale(self.slope, self.intercept)).map(drop).map_err(blame.volume())
     }
 }
 
 /// The name of a volume: that of its file without folders and extensions.
 fn short_name(header: &Path) -> String {
-    let name = header
-        .file_name()
-        .map(|name| name.to_string_lossy().into_owned())
-        .unwrap_or_default();
+    let name = header.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let known = super::FORMATS.iter().flat_map(|format| format.extensions);
     let lower = name.to_lowercase();
-    let longest = known
-        .filter(|extension| lower.ends_with(&format!(".{extension}")))
-        .map(|e| e.len() + 1)
-        .max();
+    let longest = known.filter(|extension| lower.ends_with(&format!(".{extension}"))).map(|e| e.len() + 1).max();
     match longest {
         Some(length) if length < name.len() => name[..name.len() - length].to_owned(),
         _ => name,
@@ -134,11 +109,8 @@ fn short_name(header: &Path) -> String {
 /// The file beside `header` that `named` means: relative to the header's folder unless absolute.
 pub(super) fn beside(header: &Path, named: &str) -> PathBuf {
     // Headers written on another system may separate folders with backslashes.
-    let named = if cfg!(windows) || Path::new(named).is_absolute() {
-        named.to_owned()
-    } else {
-        named.replace('\\', "/")
-    };
+    let named =
+        if cfg!(windows) || Path::new(named).is_absolute() { named.to_owned() } else { named.replace('\\', "/") };
     header.parent().unwrap_or(Path::new("")).join(named)
 }
 

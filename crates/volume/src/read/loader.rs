@@ -38,15 +38,9 @@ pub(super) fn load(
         ElementType::F32 => read_as::<f32>(source, &layout, progress),
         ElementType::F64 => read_as::<f64>(source, &layout, progress),
     }?;
-    Volume::new(
-        layout.name,
-        layout.dims,
-        layout.channels,
-        voxels,
-        layout.index_to_world,
-    )
-    .and_then(|volume| volume.with_rescale(layout.slope, layout.intercept))
-    .map_err(blame.volume())
+    Volume::new(layout.name, layout.dims, layout.channels, voxels, layout.index_to_world)
+        .and_then(|volume| volume.with_rescale(layout.slope, layout.intercept))
+        .map_err(blame.volume())
 }
 
 /// An opened data file, positioned at the first voxel.
@@ -60,9 +54,7 @@ struct Source<'a> {
 
 impl<'a> Source<'a> {
     fn open(layout: &'a RawLayout, header: Blame<'a>, bytes: u64) -> Result<Self, ReadError> {
-        let data = Blame {
-            file: &layout.data_file,
-        };
+        let data = Blame { file: &layout.data_file };
         let mut file = File::open(data.file).map_err(data.io("open the file with the voxels"))?;
         let length = file.metadata().map_err(data.io("look up the size"))?.len();
         let start = start_of_data(&mut file, layout, data, length, bytes)?;
@@ -71,9 +63,7 @@ impl<'a> Source<'a> {
             Encoding::Raw => packed,
             Encoding::Gzip | Encoding::Zlib => packed.saturating_mul(DEFLATE_LIMIT),
             // A digit and a space at least; the last space may be missing.
-            Encoding::Ascii => packed
-                .div_ceil(2)
-                .saturating_mul(layout.element.size() as u64),
+            Encoding::Ascii => packed.div_ceil(2).saturating_mul(layout.element.size() as u64),
         };
         let found = most.saturating_sub(layout.skip_unpacked);
         if found < bytes {
@@ -84,22 +74,14 @@ impl<'a> Source<'a> {
                 found,
             });
         }
-        file.seek(SeekFrom::Start(start))
-            .map_err(data.io("find the voxels"))?;
+        file.seek(SeekFrom::Start(start)).map_err(data.io("find the voxels"))?;
         let mut unpacked: Box<dyn Read> = match layout.encoding {
             Encoding::Raw | Encoding::Ascii => Box::new(file),
-            Encoding::Gzip => {
-                Box::new(MultiGzDecoder::new(BufReader::with_capacity(1 << 17, file)))
-            }
+            Encoding::Gzip => Box::new(MultiGzDecoder::new(BufReader::with_capacity(1 << 17, file))),
             Encoding::Zlib => Box::new(ZlibDecoder::new(BufReader::with_capacity(1 << 17, file))),
         };
         skip(&mut unpacked, layout.skip_unpacked).map_err(data.io("skip to the voxels"))?;
-        Ok(Self {
-            unpacked,
-            bytes,
-            data,
-            header,
-        })
+        Ok(Self { unpacked, bytes, data, header })
     }
 
     fn too_short(&self, found: usize) -> ReadError {
@@ -126,9 +108,7 @@ fn start_of_data(
             let mut reader = BufReader::new(file);
             let mut start = 0;
             for _ in 0..lines {
-                let line = reader
-                    .skip_until(b'\n')
-                    .map_err(data.io("skip the lines before the voxels"))?;
+                let line = reader.skip_until(b'\n').map_err(data.io("skip the lines before the voxels"))?;
                 if line == 0 {
                     break;
                 }
@@ -176,26 +156,19 @@ fn read_binary<E: Element>(
     while elements.len() < total {
         let chunk = (CHUNK / size_of::<E>()).min(total - elements.len());
         let start = elements.len();
-        elements.try_reserve(chunk).map_err(|_| ReadError::Memory {
-            file: source.data.file.to_owned(),
-            bytes: source.bytes,
-        })?;
+        elements
+            .try_reserve(chunk)
+            .map_err(|_| ReadError::Memory { file: source.data.file.to_owned(), bytes: source.bytes })?;
         elements.resize(start + chunk, E::zeroed());
         let wanted: &mut [u8] = bytemuck::cast_slice_mut(&mut elements[start..]);
-        let found =
-            fill(&mut source.unpacked, wanted).map_err(source.data.io("read the voxels"))?;
+        let found = fill(&mut source.unpacked, wanted).map_err(source.data.io("read the voxels"))?;
         if found < wanted.len() {
             return Err(source.too_short(start * size_of::<E>() + found));
         }
         if endian != Endian::NATIVE && size_of::<E>() > 1 {
-            elements[start..]
-                .par_iter_mut()
-                .for_each(|element| *element = element.reversed());
+            elements[start..].par_iter_mut().for_each(|element| *element = element.reversed());
         }
-        progress(Progress {
-            done: (elements.len() * size_of::<E>()) as u64,
-            total: source.bytes,
-        });
+        progress(Progress { done: (elements.len() * size_of::<E>()) as u64, total: source.bytes });
     }
     elements.shrink_to_fit();
     Ok(elements)
@@ -218,8 +191,5 @@ fn fill(reader: &mut dyn Read, mut buffer: &mut [u8]) -> std::io::Result<usize> 
 
 fn interleaved<E: Element>(planes: &[E], channels: usize) -> Vec<E> {
     let voxels = planes.len() / channels;
-    (0..planes.len())
-        .into_par_iter()
-        .map(|at| planes[at % channels * voxels + at / channels])
-        .collect()
+    (0..planes.len()).into_par_iter().map(|at| planes[at % channels * voxels + at / channels]).collect()
 }

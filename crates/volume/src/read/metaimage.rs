@@ -23,29 +23,15 @@ pub(super) fn read_header(path: &Path) -> Result<RawLayout, ReadError> {
             "join the slices into one file first",
         ));
     }
-    let data_file = if local {
-        path.to_owned()
-    } else {
-        beside(path, data)
-    };
+    let data_file = if local { path.to_owned() } else { beside(path, data) };
     let mut layout = RawLayout::raw(path, data_file, dims, element);
-    layout.channels = fields.get("elementnumberofchannels").map_or(Ok(1), |n| {
-        text::integer(blame, "ElementNumberOfChannels", n)
-    })?;
+    layout.channels =
+        fields.get("elementnumberofchannels").map_or(Ok(1), |n| text::integer(blame, "ElementNumberOfChannels", n))?;
     layout.encoding = encoding(blame, &fields)?;
     if let Some((key, big)) = fields.find(&["binarydatabyteordermsb", "elementbyteordermsb"]) {
-        layout.endian = if text::truth(blame, key, big)? {
-            Endian::Big
-        } else {
-            Endian::Little
-        };
+        layout.endian = if text::truth(blame, key, big)? { Endian::Big } else { Endian::Little };
     }
-    layout.start = start(
-        blame,
-        &fields,
-        if local { data_at } else { 0 },
-        layout.encoding,
-    )?;
+    layout.start = start(blame, &fields, if local { data_at } else { 0 }, layout.encoding)?;
     if let Some(slope) = fields.get("elementtointensityfunctionslope") {
         layout.slope = text::number(blame, "ElementToIntensityFunctionSlope", slope)?;
     }
@@ -67,11 +53,7 @@ fn read_fields(blame: Blame<'_>) -> Result<(Fields, u64), ReadError> {
         }
         let Some((key, value)) = line.split_once('=') else {
             let shown: String = line.chars().take(40).collect();
-            return Err(blame.header(
-                "a line of the header",
-                shown.escape_debug(),
-                "`Field = value`",
-            ));
+            return Err(blame.header("a line of the header", shown.escape_debug(), "`Field = value`"));
         };
         fields.push(key, value);
         if key.trim().eq_ignore_ascii_case("ElementDataFile") {
@@ -127,29 +109,17 @@ fn dims(blame: Blame<'_>, fields: &Fields) -> Result<[u32; 3], ReadError> {
 }
 
 fn encoding(blame: Blame<'_>, fields: &Fields) -> Result<Encoding, ReadError> {
-    let flag = |key: &str, otherwise: bool| {
-        fields
-            .get(key)
-            .map_or(Ok(otherwise), |found| text::truth(blame, key, found))
-    };
-    Ok(
-        match (flag("binarydata", true)?, flag("compresseddata", false)?) {
-            (false, _) => Encoding::Ascii,
-            (true, true) => Encoding::Zlib,
-            (true, false) => Encoding::Raw,
-        },
-    )
+    let flag =
+        |key: &str, otherwise: bool| fields.get(key).map_or(Ok(otherwise), |found| text::truth(blame, key, found));
+    Ok(match (flag("binarydata", true)?, flag("compresseddata", false)?) {
+        (false, _) => Encoding::Ascii,
+        (true, true) => Encoding::Zlib,
+        (true, false) => Encoding::Raw,
+    })
 }
 
-fn start(
-    blame: Blame<'_>,
-    fields: &Fields,
-    local_at: u64,
-    encoding: Encoding,
-) -> Result<Start, ReadError> {
-    let skip: i64 = fields
-        .get("headersize")
-        .map_or(Ok(0), |found| text::integer(blame, "HeaderSize", found))?;
+fn start(blame: Blame<'_>, fields: &Fields, local_at: u64, encoding: Encoding) -> Result<Start, ReadError> {
+    let skip: i64 = fields.get("headersize").map_or(Ok(0), |found| text::integer(blame, "HeaderSize", found))?;
     match (skip, encoding) {
         (-1, Encoding::Raw) => Ok(Start::EndOfFile),
         (0.., _) => Ok(Start::At(local_at.saturating_add(skip.unsigned_abs()))),
@@ -166,11 +136,9 @@ fn transform(blame: Blame<'_>, fields: &Fields) -> Result<DAffine3, ReadError> {
         let numbers = text::numbers(blame, key, found)?;
         match numbers.len() {
             n if n == count => Ok(Some(numbers)),
-            n => Err(blame.header(
-                format!("`{key}`"),
-                format!("{n} numbers"),
-                format!("{count} for {rank} dimensions"),
-            )),
+            n => {
+                Err(blame.header(format!("`{key}`"), format!("{n} numbers"), format!("{count} for {rank} dimensions")))
+            }
         }
     };
     let mut axes = [DVec3::X, DVec3::Y, DVec3::Z];
@@ -181,19 +149,12 @@ fn transform(blame: Blame<'_>, fields: &Fields) -> Result<DAffine3, ReadError> {
         }
     }
     if let Some(spacing) = numbers(&["elementspacing", "elementsize"], rank)? {
-        axes.iter_mut()
-            .zip(spacing)
-            .for_each(|(axis, size)| *axis *= size);
+        axes.iter_mut().zip(spacing).for_each(|(axis, size)| *axis *= size);
     }
-    let origin = numbers(&["offset", "origin", "position"], rank)?
-        .map_or(DVec3::ZERO, |found| vector(&found));
+    let origin = numbers(&["offset", "origin", "position"], rank)?.map_or(DVec3::ZERO, |found| vector(&found));
     Ok(flip_left_posterior(affine(axes, origin)))
 }
 
 fn vector(numbers: &[f64]) -> DVec3 {
-    DVec3::new(
-        numbers[0],
-        numbers[1],
-        numbers.get(2).copied().unwrap_or(0.0),
-    )
+    DVec3::new(numbers[0], numbers[1], numbers.get(2).copied().unwrap_or(0.0))
 }

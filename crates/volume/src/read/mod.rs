@@ -92,13 +92,8 @@ pub fn formats() -> &'static [Format] {
 /// The format that the name of a file stands for, whatever its case.
 pub fn format_of(path: &Path) -> Option<&'static Format> {
     let name = path.file_name()?.to_string_lossy().to_lowercase();
-    let has = |extension: &&str| {
-        name.strip_suffix(extension)
-            .is_some_and(|stem| stem.ends_with('.'))
-    };
-    FORMATS
-        .iter()
-        .find(|format| format.extensions.iter().any(has))
+    let has = |extension: &&str| name.strip_suffix(extension).is_some_and(|stem| stem.ends_with('.'));
+    FORMATS.iter().find(|format| format.extensions.iter().any(has))
 }
 
 /// Reads the volume in a file; `progress` is called a few times a second of work, with the whole at the end.
@@ -109,11 +104,7 @@ pub fn format_of(path: &Path) -> Option<&'static Format> {
 pub fn read(path: &Path, progress: &mut dyn FnMut(Progress)) -> Result<Volume, ReadError> {
     let blame = Blame { file: path };
     let Some(format) = format_of(path) else {
-        let known: Vec<_> = FORMATS
-            .iter()
-            .flat_map(|format| format.extensions)
-            .map(|e| format!(".{e}"))
-            .collect();
+        let known: Vec<_> = FORMATS.iter().flat_map(|format| format.extensions).map(|e| format!(".{e}")).collect();
         let advice = format!(
             "the known ones are {}; raw voxels of any layout are read through a description beside them, such as \
              {{\"raw\": \"head.raw\", \"dims\": [256, 256, 128], \"type\": \"u8\", \"offset\": 0}} in head.volume.json",

@@ -27,20 +27,12 @@ pub(super) fn read_header(path: &Path) -> Result<RawLayout, ReadError> {
     if colour_channels > 1 && vector_channels > 1 {
         return Err(blame.unsupported("it holds vectors of colours", "store one volume of colours"));
     }
-    let data_file = if single {
-        header_file.clone()
-    } else {
-        image_file
-    };
+    let data_file = if single { header_file.clone() } else { image_file };
     let mut layout = RawLayout::raw(path, data_file, dims, element);
     layout.channels = colour_channels.max(vector_channels);
     layout.planar = vector_channels > 1;
     layout.endian = header.endian;
-    layout.encoding = if is_gzip(&layout.data_file)? {
-        Encoding::Gzip
-    } else {
-        Encoding::Raw
-    };
+    layout.encoding = if is_gzip(&layout.data_file)? { Encoding::Gzip } else { Encoding::Raw };
     let offset = header.offset(blame, single)?;
     match layout.encoding {
         Encoding::Gzip => layout.skip_unpacked = offset,
@@ -55,28 +47,16 @@ pub(super) fn read_header(path: &Path) -> Result<RawLayout, ReadError> {
 
 /// The files with header and voxels; the same one twice for a `.nii`.
 fn files(path: &Path) -> (PathBuf, PathBuf) {
-    let name = path
-        .file_name()
-        .map(|name| name.to_string_lossy().into_owned())
-        .unwrap_or_default();
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let lower = name.to_lowercase();
-    let (stem, packed) = if lower.ends_with(".gz") {
-        (&name[..name.len() - 3], ".gz")
-    } else {
-        (&name[..], "")
-    };
+    let (stem, packed) = if lower.ends_with(".gz") { (&name[..name.len() - 3], ".gz") } else { (&name[..], "") };
     if lower.trim_end_matches(".gz").ends_with(".nii") {
         return (path.to_owned(), path.to_owned());
     }
     let stem = &stem[..stem.len().saturating_sub(4)];
     let other = |extension: &str| {
-        let candidates = [packed, "", ".gz"]
-            .map(|packed| path.with_file_name(format!("{stem}{extension}{packed}")));
-        candidates
-            .iter()
-            .find(|file| file.exists())
-            .unwrap_or(&candidates[0])
-            .clone()
+        let candidates = [packed, "", ".gz"].map(|packed| path.with_file_name(format!("{stem}{extension}{packed}")));
+        candidates.iter().find(|file| file.exists()).unwrap_or(&candidates[0]).clone()
     };
     match lower.contains(".img") && !lower.trim_end_matches(".gz").ends_with(".hdr") {
         true => (other(".hdr"), path.to_owned()),
@@ -88,10 +68,7 @@ fn is_gzip(file: &Path) -> Result<bool, ReadError> {
     let blame = Blame { file };
     let mut magic = Vec::new();
     let opened = File::open(file).map_err(blame.io("open it"))?;
-    opened
-        .take(2)
-        .read_to_end(&mut magic)
-        .map_err(blame.io("read it"))?;
+    opened.take(2).read_to_end(&mut magic).map_err(blame.io("read it"))?;
     Ok(magic == [0x1f, 0x8b])
 }
 
@@ -105,9 +82,7 @@ fn header_bytes(blame: Blame<'_>) -> Result<Vec<u8>, ReadError> {
     };
     match result {
         // A header that is cut short is reported as such below.
-        Err(error) if error.kind() != std::io::ErrorKind::UnexpectedEof => {
-            Err(blame.io("read its header")(error))
-        }
+        Err(error) if error.kind() != std::io::ErrorKind::UnexpectedEof => Err(blame.io("read its header")(error)),
         _ => Ok(bytes),
     }
 }
@@ -123,11 +98,7 @@ impl<'a> Header<'a> {
     fn find(bytes: &'a [u8], blame: Blame<'_>) -> Result<Self, ReadError> {
         let expected = "the 348 bytes of NIfTI-1 or the 540 bytes of NIfTI-2";
         let Some(first) = bytes.first_chunk::<4>().filter(|_| bytes.len() >= SIZE_1) else {
-            return Err(blame.header(
-                "the length of the header",
-                format!("{} bytes", bytes.len()),
-                expected,
-            ));
+            return Err(blame.header("the length of the header", format!("{} bytes", bytes.len()), expected));
         };
         let (little, big) = (i32::from_le_bytes(*first), i32::from_be_bytes(*first));
         let (endian, size) = match [SIZE_1 as i32, SIZE_2 as i32] {
@@ -136,36 +107,19 @@ impl<'a> Header<'a> {
             _ => return Err(blame.header("sizeof_hdr", little, "348 or 540 in either byte order")),
         };
         if bytes.len() < size {
-            return Err(blame.header(
-                "the length of the header",
-                format!("{} bytes", bytes.len()),
-                expected,
-            ));
+            return Err(blame.header("the length of the header", format!("{} bytes", bytes.len()), expected));
         }
         let version = match size {
             SIZE_2 => 2,
             _ => u8::from(bytes[344..347] == *b"n+1" || bytes[344..347] == *b"ni1"),
         };
-        Ok(Self {
-            bytes,
-            endian,
-            version,
-        })
+        Ok(Self { bytes, endian, version })
     }
 
     /// Whether header and voxels share one file.
     fn check_magic(&self, blame: Blame<'_>) -> Result<bool, ReadError> {
-        let magic = if self.version == 2 {
-            &self.bytes[4..8]
-        } else {
-            &self.bytes[344..348]
-        };
-        let pair_by_name = !blame
-            .file
-            .to_string_lossy()
-            .to_lowercase()
-            .trim_end_matches(".gz")
-            .ends_with(".nii");
+        let magic = if self.version == 2 { &self.bytes[4..8] } else { &self.bytes[344..348] };
+        let pair_by_name = !blame.file.to_string_lossy().to_lowercase().trim_end_matches(".gz").ends_with(".nii");
         match (self.version, magic) {
             (0, _) if pair_by_name => Ok(false),
             (1, b"n+1\0") | (2, b"n+2\0") => Ok(true),
@@ -218,11 +172,7 @@ impl<'a> Header<'a> {
         }
         let mut dims = [1; 7];
         for (index, dim) in dims.iter_mut().enumerate().take(rank as usize) {
-            *dim = dimension(
-                blame,
-                &format!("dim[{}]", index + 1),
-                self.dim(index + 1).into(),
-            )?;
+            *dim = dimension(blame, &format!("dim[{}]", index + 1), self.dim(index + 1).into())?;
         }
         if dims[3] > 1 {
             return Err(blame.unsupported(
@@ -231,13 +181,8 @@ impl<'a> Header<'a> {
             ));
         }
         if dims[4] > 4 || dims[5] > 1 || dims[6] > 1 {
-            let found = format!(
-                "its voxels hold {} x {} x {} components",
-                dims[4], dims[5], dims[6]
-            );
-            return Err(
-                blame.unsupported(found, "a voxel has at most four; extract those of interest")
-            );
+            let found = format!("its voxels hold {} x {} x {} components", dims[4], dims[5], dims[6]);
+            return Err(blame.unsupported(found, "a voxel has at most four; extract those of interest"));
         }
         Ok(([dims[0], dims[1], dims[2]], dims[4]))
     }
@@ -257,17 +202,10 @@ impl<'a> Header<'a> {
             1280 => ElementType::U64,
             1 | 32 | 1536 | 1792 | 2048 => {
                 let what = format!("its datatype is {code} (bits, complex or 128-bit numbers)");
-                return Err(blame.unsupported(
-                    what,
-                    "convert it to integers of up to 64 bits, float or double",
-                ));
+                return Err(blame.unsupported(what, "convert it to integers of up to 64 bits, float or double"));
             }
             _ => {
-                return Err(blame.header(
-                    "datatype",
-                    code,
-                    "a code of nifti1.h such as 2 (u8), 4 (i16) or 16 (f32)",
-                ));
+                return Err(blame.header("datatype", code, "a code of nifti1.h such as 2 (u8), 4 (i16) or 16 (f32)"));
             }
         };
         let channels = match code {
@@ -289,11 +227,7 @@ impl<'a> Header<'a> {
             (true, _) => SIZE_1 as f64,
         };
         // Some writers leave the offset of a single file at zero; the voxels follow the header and its extension flag.
-        let offset = if single && found == 0.0 {
-            least + 4.0
-        } else {
-            found
-        };
+        let offset = if single && found == 0.0 { least + 4.0 } else { found };
         if offset.is_finite() && offset >= least && offset < 1e15 {
             Ok(offset as u64)
         } else {
@@ -304,11 +238,7 @@ impl<'a> Header<'a> {
     /// Slope and intercept; a slope of zero (or NaN, as nibabel writes it) means none.
     fn rescale(&self) -> (f64, f64) {
         let slope = self.real(112, 176, 0);
-        if slope.is_finite() && slope != 0.0 {
-            (slope, self.real(116, 184, 0))
-        } else {
-            (1.0, 0.0)
-        }
+        if slope.is_finite() && slope != 0.0 { (slope, self.real(116, 184, 0)) } else { (1.0, 0.0) }
     }
 
     /// The transformation into RAS+ millimetres: sform, else qform, else voxel sizes alone.
@@ -336,8 +266,7 @@ impl<'a> Header<'a> {
     }
 
     fn sform(&self) -> DAffine3 {
-        let row =
-            |r: usize| -> [f64; 4] { std::array::from_fn(|c| self.real(280, 400, 4 * r + c)) };
+        let row = |r: usize| -> [f64; 4] { std::array::from_fn(|c| self.real(280, 400, 4 * r + c)) };
         let [x, y, z] = [row(0), row(1), row(2)];
         let column = |c: usize| DVec3::new(x[c], y[c], z[c]);
         affine([column(0), column(1), column(2)], column(3))
@@ -351,11 +280,7 @@ impl<'a> Header<'a> {
         if !(quaternion.is_finite() && quaternion.length() > 0.0) {
             return DAffine3::from_mat3_translation(DMat3::ZERO, offset);
         }
-        let mirror = if self.real(76, 104, 0) < 0.0 {
-            -1.0
-        } else {
-            1.0
-        };
+        let mirror = if self.real(76, 104, 0) < 0.0 { -1.0 } else { 1.0 };
         let scale = DMat3::from_diagonal(sizes * DVec3::new(1.0, 1.0, mirror));
         DAffine3::from_mat3_translation(DMat3::from_quat(quaternion.normalize()) * scale, offset)
     }
@@ -367,11 +292,7 @@ impl<'a> Header<'a> {
             if size.is_finite() && size > 0.0 {
                 sizes[axis] = size;
             } else if dims[axis] > 1 {
-                return Err(blame.header(
-                    format!("pixdim[{}]", axis + 1),
-                    size,
-                    "a size of voxels above 0",
-                ));
+                return Err(blame.header(format!("pixdim[{}]", axis + 1), size, "a size of voxels above 0"));
             }
         }
         Ok(sizes)

@@ -37,11 +37,7 @@ pub(super) fn read_header(path: &Path) -> Result<RawLayout, ReadError> {
             "an empty line and then the voxels, or a `data file` field",
         ));
     }
-    let attached_at = if detached.is_some() {
-        0
-    } else {
-        data_at.unwrap_or(0)
-    };
+    let attached_at = if detached.is_some() { 0 } else { data_at.unwrap_or(0) };
     place(blame, &fields, &mut layout, attached_at)?;
     Ok(layout)
 }
@@ -52,11 +48,7 @@ fn read_fields(blame: Blame<'_>) -> Result<(Fields, Option<u64>), ReadError> {
     let (magic, mut at) = text::line(&bytes, 0).unwrap_or(("", 0));
     if !magic.starts_with("NRRD000") {
         let shown: String = magic.chars().take(16).collect();
-        return Err(blame.header(
-            "the first line",
-            shown.escape_debug(),
-            "NRRD0001 to NRRD0005",
-        ));
+        return Err(blame.header("the first line", shown.escape_debug(), "NRRD0001 to NRRD0005"));
     }
     let mut fields = Fields::default();
     while let Some((line, next)) = text::line(&bytes, at) {
@@ -68,11 +60,7 @@ fn read_fields(blame: Blame<'_>) -> Result<(Fields, Option<u64>), ReadError> {
             continue;
         }
         let Some((key, value)) = line.split_once(": ").or_else(|| line.split_once(':')) else {
-            return Err(blame.header(
-                "a line of the header",
-                line.escape_debug(),
-                "`field: value`",
-            ));
+            return Err(blame.header("a line of the header", line.escape_debug(), "`field: value`"));
         };
         fields.push(key, value);
     }
@@ -80,18 +68,13 @@ fn read_fields(blame: Blame<'_>) -> Result<(Fields, Option<u64>), ReadError> {
 }
 
 fn element(blame: Blame<'_>, fields: &Fields) -> Result<ElementType, ReadError> {
-    let expected =
-        "one of signed char, uchar, short, ushort, int, uint, longlong, ulonglong, float, double";
+    let expected = "one of signed char, uchar, short, ushort, int, uint, longlong, ulonglong, float, double";
     let found = fields.require(blame, "type", expected)?;
     Ok(match found {
         "signed char" | "int8" | "int8_t" => ElementType::I8,
         "uchar" | "unsigned char" | "uint8" | "uint8_t" => ElementType::U8,
-        "short" | "short int" | "signed short" | "signed short int" | "int16" | "int16_t" => {
-            ElementType::I16
-        }
-        "ushort" | "unsigned short" | "unsigned short int" | "uint16" | "uint16_t" => {
-            ElementType::U16
-        }
+        "short" | "short int" | "signed short" | "signed short int" | "int16" | "int16_t" => ElementType::I16,
+        "ushort" | "unsigned short" | "unsigned short int" | "uint16" | "uint16_t" => ElementType::U16,
         "int" | "signed int" | "int32" | "int32_t" => ElementType::I32,
         "uint" | "unsigned int" | "uint32" | "uint32_t" => ElementType::U32,
         "longlong"
@@ -101,9 +84,7 @@ fn element(blame: Blame<'_>, fields: &Fields) -> Result<ElementType, ReadError> 
         | "signed long long int"
         | "int64"
         | "int64_t" => ElementType::I64,
-        "ulonglong" | "unsigned long long" | "unsigned long long int" | "uint64" | "uint64_t" => {
-            ElementType::U64
-        }
+        "ulonglong" | "unsigned long long" | "unsigned long long int" | "uint64" | "uint64_t" => ElementType::U64,
         "float" => ElementType::F32,
         "double" => ElementType::F64,
         _ => return Err(blame.header("`type`", found, expected)),
@@ -112,18 +93,13 @@ fn element(blame: Blame<'_>, fields: &Fields) -> Result<ElementType, ReadError> 
 
 fn encoding(blame: Blame<'_>, fields: &Fields) -> Result<Encoding, ReadError> {
     let expected = "raw, gzip or ascii";
-    match fields
-        .require(blame, "encoding", expected)?
-        .to_lowercase()
-        .as_str()
-    {
+    match fields.require(blame, "encoding", expected)?.to_lowercase().as_str() {
         "raw" => Ok(Encoding::Raw),
         "gzip" | "gz" => Ok(Encoding::Gzip),
         "ascii" | "text" | "txt" => Ok(Encoding::Ascii),
-        found @ ("bzip2" | "bz2" | "hex") => Err(blame.unsupported(
-            format!("its encoding is {found}"),
-            "save it with raw or gzip encoding",
-        )),
+        found @ ("bzip2" | "bz2" | "hex") => {
+            Err(blame.unsupported(format!("its encoding is {found}"), "save it with raw or gzip encoding"))
+        }
         found => Err(blame.header("`encoding`", found, expected)),
     }
 }
@@ -132,35 +108,19 @@ fn endian(blame: Blame<'_>, fields: &Fields, layout: &RawLayout) -> Result<Endia
     match fields.get("endian").map(str::to_lowercase).as_deref() {
         Some("little") => Ok(Endian::Little),
         Some("big") => Ok(Endian::Big),
-        None if layout.element.size() == 1 || layout.encoding == Encoding::Ascii => {
-            Ok(Endian::NATIVE)
-        }
+        None if layout.element.size() == 1 || layout.encoding == Encoding::Ascii => Ok(Endian::NATIVE),
         found => Err(blame.header("`endian`", found.unwrap_or(""), "little or big")),
     }
 }
 
 /// Applies `line skip` and `byte skip`.
-fn place(
-    blame: Blame<'_>,
-    fields: &Fields,
-    layout: &mut RawLayout,
-    attached_at: u64,
-) -> Result<(), ReadError> {
+fn place(blame: Blame<'_>, fields: &Fields, layout: &mut RawLayout, attached_at: u64) -> Result<(), ReadError> {
     let skip = |keys: &[&'static str]| -> Result<i64, ReadError> {
-        fields
-            .find(keys)
-            .map_or(Ok(0), |(key, value)| text::integer(blame, key, value))
+        fields.find(keys).map_or(Ok(0), |(key, value)| text::integer(blame, key, value))
     };
-    let (lines, bytes) = (
-        skip(&["line skip", "lineskip"])?,
-        skip(&["byte skip", "byteskip"])?,
-    );
+    let (lines, bytes) = (skip(&["line skip", "lineskip"])?, skip(&["byte skip", "byteskip"])?);
     if lines < 0 || bytes < -1 {
-        return Err(blame.header(
-            "`line skip` or `byte skip`",
-            lines.min(bytes),
-            "0 or more (a byte skip may be -1)",
-        ));
+        return Err(blame.header("`line skip` or `byte skip`", lines.min(bytes), "0 or more (a byte skip may be -1)"));
     }
     layout.start = match (bytes, lines, layout.encoding) {
         (-1, _, Encoding::Raw) => Start::EndOfFile,
@@ -170,10 +130,9 @@ fn place(
         (_, 0, _) => Start::At(attached_at),
         _ if attached_at == 0 => Start::AfterLines(lines as u64),
         _ => {
-            return Err(blame.unsupported(
-                "it skips lines behind its own header",
-                "put the voxels into a file of their own",
-            ));
+            return Err(
+                blame.unsupported("it skips lines behind its own header", "put the voxels into a file of their own")
+            );
         }
     };
     layout.skip_unpacked = u64::try_from(bytes).unwrap_or(0);
@@ -191,16 +150,9 @@ struct Axes {
 
 impl Axes {
     fn read(blame: Blame<'_>, fields: &Fields) -> Result<Self, ReadError> {
-        let sizes = text::dimensions(
-            blame,
-            "sizes",
-            fields.require(blame, "sizes", "a number of samples for every axis")?,
-        )?;
-        let rank: usize = text::integer(
-            blame,
-            "dimension",
-            fields.require(blame, "dimension", "1 to 4")?,
-        )?;
+        let sizes =
+            text::dimensions(blame, "sizes", fields.require(blame, "sizes", "a number of samples for every axis")?)?;
+        let rank: usize = text::integer(blame, "dimension", fields.require(blame, "dimension", "1 to 4")?)?;
         if sizes.len() != rank {
             return Err(blame.header(
                 "`sizes`",
@@ -208,21 +160,15 @@ impl Axes {
                 format!("{rank}, one for every dimension"),
             ));
         }
-        let kinds: Vec<&str> = fields
-            .get("kinds")
-            .map(|kinds| kinds.split_whitespace().collect())
-            .unwrap_or_default();
+        let kinds: Vec<&str> = fields.get("kinds").map(|kinds| kinds.split_whitespace().collect()).unwrap_or_default();
         let directions = match fields.get("space directions") {
             Some(text) => vectors(text).into_iter().map(|v| v != "none").collect(),
             None => Vec::new(),
         };
         let is_spatial = |axis: usize| {
-            let by_kind = kinds.get(axis).is_none_or(|kind| {
-                matches!(
-                    kind.to_lowercase().as_str(),
-                    "domain" | "space" | "???" | "none"
-                )
-            });
+            let by_kind = kinds
+                .get(axis)
+                .is_none_or(|kind| matches!(kind.to_lowercase().as_str(), "domain" | "space" | "???" | "none"));
             by_kind && directions.get(axis).copied().unwrap_or(true)
         };
         let mut spatial: Vec<usize> = (0..rank).filter(|&axis| is_spatial(axis)).collect();
@@ -230,21 +176,15 @@ impl Axes {
         if spatial.len() == 4 && kinds.is_empty() && sizes[0] <= 4 {
             spatial.remove(0);
         }
-        let others: Vec<usize> = (0..rank)
-            .filter(|axis| !spatial.contains(axis) && (*axis == 0 || sizes[*axis] > 1))
-            .collect();
+        let others: Vec<usize> =
+            (0..rank).filter(|axis| !spatial.contains(axis) && (*axis == 0 || sizes[*axis] > 1)).collect();
         let channels = match others.as_slice() {
             [] => 1,
             [0] if sizes[0] <= 4 => sizes[0],
             [axis, ..] => {
-                let found = format!(
-                    "its axis {axis} has {} samples that do not run through space",
-                    sizes[*axis]
-                );
-                return Err(blame.unsupported(
-                    found,
-                    "only a first axis of 1 to 4 components is read; permute or split the axes",
-                ));
+                let found = format!("its axis {axis} has {} samples that do not run through space", sizes[*axis]);
+                return Err(blame
+                    .unsupported(found, "only a first axis of 1 to 4 components is read; permute or split the axes"));
             }
         };
         if spatial.is_empty() || spatial.len() > 3 {
@@ -254,16 +194,8 @@ impl Axes {
             ));
         }
         let mut dims = [1; 3];
-        spatial
-            .iter()
-            .enumerate()
-            .for_each(|(to, &from)| dims[to] = sizes[from]);
-        Ok(Self {
-            dims,
-            channels,
-            spatial,
-            rank,
-        })
+        spatial.iter().enumerate().for_each(|(to, &from)| dims[to] = sizes[from]);
+        Ok(Self { dims, channels, spatial, rank })
     }
 
     fn transform(&self, blame: Blame<'_>, fields: &Fields) -> Result<DAffine3, ReadError> {
@@ -284,11 +216,7 @@ impl Axes {
                 let all = self.one_each(blame, "axis mins", mins.split_whitespace().collect())?;
                 for (at, min) in all.into_iter().enumerate() {
                     // Samples that stand for cells lie half a spacing inside of the cell's border.
-                    let inside = if is_cell(fields, self.spatial[at]) {
-                        0.5 * axes[at][at]
-                    } else {
-                        0.0
-                    };
+                    let inside = if is_cell(fields, self.spatial[at]) { 0.5 * axes[at][at] } else { 0.0 };
                     origin[at] = text::number(blame, "axis mins", min)? + inside;
                 }
             }
@@ -300,18 +228,19 @@ impl Axes {
         match fields.get("space").unwrap_or("").to_lowercase().as_str() {
             "left-posterior-superior" | "lps" => Ok(flip_left_posterior(transform)),
             "left-anterior-superior" | "las" => Ok(DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0)) * transform),
-            "" | "right-anterior-superior" | "ras" | "scanner-xyz" | "3d-right-handed" | "3d-left-handed" => Ok(transform),
-            found => Err(blame.header("`space`", found, "right-anterior-superior, left-posterior-superior, left-anterior-superior or scanner-xyz")),
+            "" | "right-anterior-superior" | "ras" | "scanner-xyz" | "3d-right-handed" | "3d-left-handed" => {
+                Ok(transform)
+            }
+            found => Err(blame.header(
+                "`space`",
+                found,
+                "right-anterior-superior, left-posterior-superior, left-anterior-superior or scanner-xyz",
+            )),
         }
     }
 
     /// The entries of the axes through space; the field must have one for every axis.
-    fn one_each<'a>(
-        &self,
-        blame: Blame<'_>,
-        key: &str,
-        all: Vec<&'a str>,
-    ) -> Result<Vec<&'a str>, ReadError> {
+    fn one_each<'a>(&self, blame: Blame<'_>, key: &str, all: Vec<&'a str>) -> Result<Vec<&'a str>, ReadError> {
         if all.len() != self.rank {
             return Err(blame.header(
                 format!("`{key}`"),
@@ -324,9 +253,7 @@ impl Axes {
 }
 
 fn is_cell(fields: &Fields, axis: usize) -> bool {
-    let centers = fields
-        .find(&["centers", "centerings"])
-        .map_or("", |(_, value)| value);
+    let centers = fields.find(&["centers", "centerings"]).map_or("", |(_, value)| value);
     centers.split_whitespace().nth(axis) == Some("cell")
 }
 
@@ -347,9 +274,7 @@ fn vectors(text: &str) -> Vec<&str> {
     while !rest.is_empty() {
         let end = match rest.starts_with('(') {
             true => rest.find(')').map_or(rest.len(), |at| at + 1),
-            false => rest
-                .find(|c: char| c.is_whitespace() || c == '(')
-                .unwrap_or(rest.len()),
+            false => rest.find(|c: char| c.is_whitespace() || c == '(').unwrap_or(rest.len()),
         };
         found.push(&rest[..end]);
         rest = rest[end..].trim_start();
@@ -359,18 +284,11 @@ fn vectors(text: &str) -> Vec<&str> {
 
 fn parse_vector(blame: Blame<'_>, key: &str, found: &str) -> Result<DVec3, ReadError> {
     let expected = || blame.header(format!("`{key}`"), found, "vectors such as (0.5,0,0)");
-    let inner = found
-        .trim()
-        .strip_prefix('(')
-        .and_then(|rest| rest.strip_suffix(')'))
-        .ok_or_else(expected)?;
-    let numbers: Vec<f64> = inner
-        .split(',')
-        .map(|word| text::number(blame, key, word))
-        .collect::<Result<_, _>>()?;
-    match numbers.as_slice() {
-        &[x, y, z] => Ok(DVec3::new(x, y, z)),
-        &[x, y] => Ok(DVec3::new(x, y, 0.0)),
+    let inner = found.trim().strip_prefix('(').and_then(|rest| rest.strip_suffix(')')).ok_or_else(expected)?;
+    let numbers: Vec<f64> = inner.split(',').map(|word| text::number(blame, key, word)).collect::<Result<_, _>>()?;
+    match *numbers.as_slice() {
+        [x, y, z] => Ok(DVec3::new(x, y, z)),
+        [x, y] => Ok(DVec3::new(x, y, 0.0)),
         _ => Err(expected()),
     }
 }

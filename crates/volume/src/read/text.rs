@@ -15,9 +15,7 @@ const LONGEST_HEADER: u64 = 1 << 20;
 pub(super) fn head(blame: Blame<'_>) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
     let file = File::open(blame.file).map_err(blame.io("open it"))?;
-    file.take(LONGEST_HEADER)
-        .read_to_end(&mut bytes)
-        .map_err(blame.io("read its header"))?;
+    file.take(LONGEST_HEADER).read_to_end(&mut bytes).map_err(blame.io("read its header"))?;
     Ok(bytes)
 }
 
@@ -27,10 +25,7 @@ pub(super) fn line(bytes: &[u8], from: usize) -> Option<(&str, usize)> {
     let length = rest.iter().position(|&b| b == b'\n').unwrap_or(rest.len());
     // What is not text cannot be a known field; an empty line would be taken for the end of a header.
     let text = std::str::from_utf8(&rest[..length]).unwrap_or("?");
-    Some((
-        text.trim_end_matches('\r'),
-        from + (length + 1).min(rest.len()),
-    ))
+    Some((text.trim_end_matches('\r'), from + (length + 1).min(rest.len())))
 }
 
 /// The fields of a header in the order of the file, with lower-case keys.
@@ -39,38 +34,28 @@ pub(super) struct Fields(Vec<(String, String)>);
 
 impl Fields {
     pub fn push(&mut self, key: &str, value: &str) {
-        self.0
-            .push((key.trim().to_lowercase(), value.trim().to_owned()));
+        self.0.push((key.trim().to_lowercase(), value.trim().to_owned()));
     }
 
     /// The value of the first of these keys that is there, with that key.
     pub fn find<'a>(&'a self, keys: &[&'a str]) -> Option<(&'a str, &'a str)> {
         keys.iter().find_map(|wanted| {
-            self.0
-                .iter()
-                .find(|(key, _)| key == wanted)
-                .map(|(key, value)| (key.as_str(), value.as_str()))
+            self.0.iter().find(|(key, _)| key == wanted).map(|(key, value)| (key.as_str(), value.as_str()))
         })
     }
 
     pub fn get(&self, key: &str) -> Option<&str> {
-        self.0
-            .iter()
-            .find(|(k, _)| k == key)
-            .map(|(_, value)| value.as_str())
+        self.0.iter().find(|(k, _)| k == key).map(|(_, value)| value.as_str())
     }
 
     pub fn require(&self, blame: Blame<'_>, key: &str, expected: &str) -> Result<&str, ReadError> {
-        self.get(key)
-            .ok_or_else(|| blame.header(format!("`{key}`"), "", expected))
+        self.get(key).ok_or_else(|| blame.header(format!("`{key}`"), "", expected))
     }
 }
 
 /// Numbers separated by white space.
 pub(super) fn numbers(blame: Blame<'_>, key: &str, text: &str) -> Result<Vec<f64>, ReadError> {
-    text.split_whitespace()
-        .map(|word| number(blame, key, word))
-        .collect()
+    text.split_whitespace().map(|word| number(blame, key, word)).collect()
 }
 
 /// One finite number.
@@ -80,29 +65,19 @@ pub(super) fn number(blame: Blame<'_>, key: &str, word: &str) -> Result<f64, Rea
 }
 
 /// One whole number.
-pub(super) fn integer<T: std::str::FromStr>(
-    blame: Blame<'_>,
-    key: &str,
-    word: &str,
-) -> Result<T, ReadError> {
-    word.trim()
-        .parse()
-        .map_err(|_| blame.header(format!("`{key}`"), word, "a whole number"))
+pub(super) fn integer<T: std::str::FromStr>(blame: Blame<'_>, key: &str, word: &str) -> Result<T, ReadError> {
+    word.trim().parse().map_err(|_| blame.header(format!("`{key}`"), word, "a whole number"))
 }
 
 /// Numbers of voxels, each at least one.
 pub(super) fn dimensions(blame: Blame<'_>, key: &str, text: &str) -> Result<Vec<u32>, ReadError> {
-    text.split_whitespace()
-        .map(|word| dimension(blame, &format!("`{key}`"), integer(blame, key, word)?))
-        .collect()
+    text.split_whitespace().map(|word| dimension(blame, &format!("`{key}`"), integer(blame, key, word)?)).collect()
 }
 
 /// Three finite numbers.
 pub(super) fn vector(blame: Blame<'_>, key: &str, text: &str) -> Result<DVec3, ReadError> {
     let found = numbers(blame, key, text)?;
-    let three: [f64; 3] = found
-        .try_into()
-        .map_err(|_| blame.header(format!("`{key}`"), text, "three numbers"))?;
+    let three: [f64; 3] = found.try_into().map_err(|_| blame.header(format!("`{key}`"), text, "three numbers"))?;
     Ok(DVec3::from_array(three))
 }
 

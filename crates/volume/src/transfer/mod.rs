@@ -38,10 +38,7 @@ impl Rgba {
     /// The optical properties of this colour and opacity.
     pub fn medium(&self) -> Medium {
         let extinction = extinction(self.opacity);
-        Medium {
-            emission: self.color.map(|c| c * extinction),
-            extinction,
-        }
+        Medium { emission: self.color.map(|c| c * extinction), extinction }
     }
 }
 
@@ -83,9 +80,7 @@ pub enum TransferFunctionError {
         found: f64,
     },
     /// Knots are not sorted.
-    #[error(
-        "knot {index} lies at {found}, before the knot in front of it at {previous}; knots must be sorted by `at`"
-    )]
+    #[error("knot {index} lies at {found}, before the knot in front of it at {previous}; knots must be sorted by `at`")]
     NotSorted {
         /// The number of the knot, from 0.
         index: usize,
@@ -107,43 +102,19 @@ pub enum TransferFunctionError {
 }
 
 fn check_finite(part: impl FnOnce() -> String, found: f64) -> Result<(), TransferFunctionError> {
-    if found.is_finite() {
-        Ok(())
-    } else {
-        Err(TransferFunctionError::NotFinite {
-            part: part(),
-            found,
-        })
-    }
+    if found.is_finite() { Ok(()) } else { Err(TransferFunctionError::NotFinite { part: part(), found }) }
 }
 
 fn check_unit(part: impl FnOnce() -> String, found: f64) -> Result<(), TransferFunctionError> {
     match found {
-        f if !f.is_finite() => Err(TransferFunctionError::NotFinite {
-            part: part(),
-            found,
-        }),
-        f if !(0.0..=1.0).contains(&f) => Err(TransferFunctionError::OutOfUnit {
-            part: part(),
-            found,
-        }),
+        f if !f.is_finite() => Err(TransferFunctionError::NotFinite { part: part(), found }),
+        f if !(0.0..=1.0).contains(&f) => Err(TransferFunctionError::OutOfUnit { part: part(), found }),
         _ => Ok(()),
     }
 }
 
-fn check_extent(
-    part: impl Fn() -> String,
-    [low, high]: [f64; 2],
-) -> Result<(), TransferFunctionError> {
+fn check_extent(part: impl Fn() -> String, [low, high]: [f64; 2]) -> Result<(), TransferFunctionError> {
     check_finite(&part, low)?;
     check_finite(&part, high)?;
-    if low < high {
-        Ok(())
-    } else {
-        Err(TransferFunctionError::Empty {
-            part: part(),
-            low,
-            high,
-        })
-    }
+    if low < high { Ok(()) } else { Err(TransferFunctionError::Empty { part: part(), low, high }) }
 }

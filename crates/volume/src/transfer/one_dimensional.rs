@@ -33,56 +33,31 @@ pub struct RightSide {
 impl Knot {
     /// A knot whose two sides are equal.
     pub fn new(at: f64, color: [f64; 3], opacity: f64) -> Self {
-        Self {
-            at,
-            color,
-            opacity,
-            right: None,
-        }
+        Self { at, color, opacity, right: None }
     }
 
     /// A knot where the function jumps from the first colour and opacity to the second.
     pub fn split(at: f64, left: ([f64; 3], f64), right: ([f64; 3], f64)) -> Self {
-        Self {
-            at,
-            color: left.0,
-            opacity: left.1,
-            right: Some(RightSide {
-                color: right.0,
-                opacity: right.1,
-            }),
-        }
+        Self { at, color: left.0, opacity: left.1, right: Some(RightSide { color: right.0, opacity: right.1 }) }
     }
 
     /// Colour and opacity just below [`Knot::at`].
     pub fn left_side(&self) -> Rgba {
-        Rgba {
-            color: self.color,
-            opacity: self.opacity,
-        }
+        Rgba { color: self.color, opacity: self.opacity }
     }
 
     /// Colour and opacity at [`Knot::at`] and just above.
     pub fn right_side(&self) -> Rgba {
-        self.right.map_or(self.left_side(), |right| Rgba {
-            color: right.color,
-            opacity: right.opacity,
-        })
+        self.right.map_or(self.left_side(), |right| Rgba { color: right.color, opacity: right.opacity })
     }
 
     fn check(&self, index: usize) -> Result<(), TransferFunctionError> {
         check_finite(|| format!("`at` of knot {index}"), self.at)?;
-        for (side, rgba) in [
-            ("", self.left_side()),
-            ("the right side of ", self.right_side()),
-        ] {
+        for (side, rgba) in [("", self.left_side()), ("the right side of ", self.right_side())] {
             for (name, component) in ["red", "green", "blue"].into_iter().zip(rgba.color) {
                 check_unit(|| format!("{name} of {side}knot {index}"), component)?;
             }
-            check_unit(
-                || format!("the opacity of {side}knot {index}"),
-                rgba.opacity,
-            )?;
+            check_unit(|| format!("the opacity of {side}knot {index}"), rgba.opacity)?;
         }
         Ok(())
     }
@@ -127,12 +102,7 @@ impl TransferFunction {
 
     /// A straight ramp over `range`: transparent black at its minimum, white with the given opacity at its maximum.
     pub fn ramp(range: ValueRange, opacity: f64) -> Self {
-        Self {
-            knots: vec![
-                Knot::new(range.min, [0.0; 3], 0.0),
-                Knot::new(range.max, [1.0; 3], opacity),
-            ],
-        }
+        Self { knots: vec![Knot::new(range.min, [0.0; 3], 0.0), Knot::new(range.max, [1.0; 3], opacity)] }
     }
 
     /// Checks that every number is finite, the knots are sorted (several at one value are fine) and colours and opacities
@@ -147,11 +117,9 @@ impl TransferFunction {
         let pairs = self.knots.windows(2).enumerate();
         match pairs.into_iter().find(|(_, pair)| pair[1].at < pair[0].at) {
             None => Ok(()),
-            Some((index, pair)) => Err(TransferFunctionError::NotSorted {
-                index: index + 1,
-                found: pair[1].at,
-                previous: pair[0].at,
-            }),
+            Some((index, pair)) => {
+                Err(TransferFunctionError::NotSorted { index: index + 1, found: pair[1].at, previous: pair[0].at })
+            }
         }
     }
 
@@ -164,11 +132,7 @@ impl TransferFunction {
         let Some(next) = self.knots.get(above) else {
             return below.right_side();
         };
-        mix(
-            below.right_side(),
-            next.left_side(),
-            fraction(value, below.at, next.at),
-        )
+        mix(below.right_side(), next.left_side(), fraction(value, below.at, next.at))
     }
 
     /// Emission and extinction per reference length at a value in data units.
@@ -180,31 +144,23 @@ impl TransferFunction {
     /// function at `range.min + i / (n - 1) * (range.max - range.min)`, so the ends of the range lie on the first and the
     /// last entry. Evaluated in `f64`.
     pub fn table(&self, range: ValueRange, n: usize) -> Vec<[f32; 4]> {
-        (0..n)
-            .map(|i| self.medium(table_value(range, n, i)).to_entry())
-            .collect()
+        (0..n).map(|i| self.medium(table_value(range, n, i)).to_entry()).collect()
     }
 
     /// Whether the opacity is exactly zero on the whole closed interval `min ..= max`, data units. Exact, from the knots.
     pub fn transparent_between(&self, min: f64, max: f64) -> bool {
-        let ends_are_clear = [min, max]
-            .iter()
-            .all(|&end| self.evaluate(end).opacity == 0.0);
+        let ends_are_clear = [min, max].iter().all(|&end| self.evaluate(end).opacity == 0.0);
         ends_are_clear
             && self.knots.windows(2).all(|pair| {
                 let overlaps = pair[0].at.max(min) < pair[1].at.min(max);
-                !overlaps
-                    || (pair[0].right_side().opacity == 0.0 && pair[1].left_side().opacity == 0.0)
+                !overlaps || (pair[0].right_side().opacity == 0.0 && pair[1].left_side().opacity == 0.0)
             })
     }
 }
 
 fn mix(a: Rgba, b: Rgba, t: f64) -> Rgba {
     let lerp = |a: f64, b: f64| a * (1.0 - t) + b * t;
-    Rgba {
-        color: std::array::from_fn(|c| lerp(a.color[c], b.color[c])),
-        opacity: lerp(a.opacity, b.opacity),
-    }
+    Rgba { color: std::array::from_fn(|c| lerp(a.color[c], b.color[c])), opacity: lerp(a.opacity, b.opacity) }
 }
 
 /// The value, data units, of entry `i` of a table of `n` entries over `range`.
@@ -225,14 +181,7 @@ pub fn table_interval(range: ValueRange, n: usize, min: f64, max: f64) -> (f64, 
     }
     let cells = (n - 1) as f64;
     // A hundredth of a cell covers what is lost when a value is normalised and stored in f32 on its way to the table.
-    let low = (range.normalise(min) * cells - 0.01)
-        .floor()
-        .clamp(0.0, cells);
-    let high = (range.normalise(max) * cells + 0.01)
-        .ceil()
-        .clamp(0.0, cells);
-    (
-        min.min(range.denormalise(low / cells)),
-        max.max(range.denormalise(high / cells)),
-    )
+    let low = (range.normalise(min) * cells - 0.01).floor().clamp(0.0, cells);
+    let high = (range.normalise(max) * cells + 0.01).ceil().clamp(0.0, cells);
+    (min.min(range.denormalise(low / cells)), max.max(range.denormalise(high / cells)))
 }

@@ -35,21 +35,13 @@ impl TransferFunction {
             return self.medium(low);
         }
         let mut sum = Medium::default();
-        let inner = self
-            .knots
-            .iter()
-            .map(|knot| knot.at)
-            .filter(|&at| low < at && at < high);
+        let inner = self.knots.iter().map(|knot| knot.at).filter(|&at| low < at && at < high);
         let mut start = low;
         for end in inner.chain([high]) {
             let share = fraction(end, low, high) - fraction(start, low, high);
             if share > 0.0 {
                 for (node, weight) in GAUSS {
-                    accumulate(
-                        &mut sum,
-                        self.medium(start * (1.0 - node) + end * node),
-                        weight * share,
-                    );
+                    accumulate(&mut sum, self.medium(start * (1.0 - node) + end * node), weight * share);
                 }
             }
             start = end;
@@ -73,8 +65,7 @@ impl TransferFunction {
                 let mut sum = Medium::default();
                 for (count, cell) in cells_from(front, step, n).enumerate() {
                     accumulate(&mut sum, cells[cell], 1.0);
-                    column[back_of(front, step, count)] =
-                        scaled(sum, 1.0 / (count + 1) as f64).to_entry();
+                    column[back_of(front, step, count)] = scaled(sum, 1.0 / (count + 1) as f64).to_entry();
                 }
             }
         })
@@ -85,21 +76,15 @@ impl TransferFunction {
     /// lies behind. A length that is not positive gives the table without self-attenuation.
     ///
     /// Cost: `n^3 / 3`, in parallel; a tenth of a second at n = 256.
-    pub fn preintegration_full(
-        &self,
-        range: ValueRange,
-        n: usize,
-        segment_length: f64,
-    ) -> Vec<[f32; 4]> {
+    pub fn preintegration_full(&self, range: ValueRange, n: usize, segment_length: f64) -> Vec<[f32; 4]> {
         if !segment_length.is_finite() || segment_length <= 0.0 {
             return self.preintegration_fast(range, n);
         }
         let points = self.points(range, n);
         // Media of cells and of their halves, quarters, ...: short segments need finer parts than the table has.
         let finest = MIN_PARTS.ilog2();
-        let levels: Vec<Vec<Medium>> = (0..=finest)
-            .map(|level| self.cells(range, (n.max(1) - 1) * (1 << level) + 1))
-            .collect();
+        let levels: Vec<Vec<Medium>> =
+            (0..=finest).map(|level| self.cells(range, (n.max(1) - 1) * (1 << level) + 1)).collect();
         build(n, |front, column| {
             for (back, entry) in column.iter_mut().enumerate() {
                 let distance = back.abs_diff(front);
@@ -109,15 +94,9 @@ impl TransferFunction {
                         let level = MIN_PARTS.div_ceil(distance).next_power_of_two().ilog2();
                         let parts = distance << level;
                         let low = front.min(back) << level;
-                        let part = |i: usize| {
-                            levels[level as usize][if front < back {
-                                low + i
-                            } else {
-                                low + parts - 1 - i
-                            }]
-                        };
-                        effective((0..parts).map(part), segment_length / parts as f64, parts)
-                            .to_entry()
+                        let part =
+                            |i: usize| levels[level as usize][if front < back { low + i } else { low + parts - 1 - i }];
+                        effective((0..parts).map(part), segment_length / parts as f64, parts).to_entry()
                     }
                 };
             }
@@ -125,9 +104,7 @@ impl TransferFunction {
     }
 
     fn points(&self, range: ValueRange, n: usize) -> Vec<Medium> {
-        (0..n)
-            .map(|i| self.medium(table_value(range, n, i)))
-            .collect()
+        (0..n).map(|i| self.medium(table_value(range, n, i))).collect()
     }
 
     /// The mean media of the `n - 1` cells between the entries of a table.
@@ -145,29 +122,17 @@ fn cells_from(front: usize, step: i32, n: usize) -> impl Iterator<Item = usize> 
 
 /// The entry reached after `count + 1` cells.
 fn back_of(front: usize, step: i32, count: usize) -> usize {
-    if step > 0 {
-        front + count + 1
-    } else {
-        front - count - 1
-    }
+    if step > 0 { front + count + 1 } else { front - count - 1 }
 }
 
 /// Computes the table column by column (one front each) in parallel and turns it so that a row is one back.
 fn build(n: usize, column: impl Fn(usize, &mut [[f32; 4]]) + Sync) -> Vec<[f32; 4]> {
     let mut columns = vec![[0.0; 4]; n * n];
-    columns
-        .par_chunks_mut(n.max(1))
-        .enumerate()
-        .for_each(|(front, entries)| column(front, entries));
+    columns.par_chunks_mut(n.max(1)).enumerate().for_each(|(front, entries)| column(front, entries));
     let mut table = vec![[0.0; 4]; n * n];
-    table
-        .par_chunks_mut(n.max(1))
-        .enumerate()
-        .for_each(|(back, row)| {
-            row.iter_mut()
-                .enumerate()
-                .for_each(|(front, entry)| *entry = columns[front * n + back]);
-        });
+    table.par_chunks_mut(n.max(1)).enumerate().for_each(|(back, row)| {
+        row.iter_mut().enumerate().for_each(|(front, entry)| *entry = columns[front * n + back]);
+    });
     table
 }
 
@@ -185,10 +150,7 @@ fn effective(parts: impl Iterator<Item = Medium>, part_length: f64, count: usize
     if opacity <= 0.0 {
         return mean;
     }
-    Medium {
-        emission: color.map(|c| c / opacity * mean.extinction),
-        extinction: mean.extinction,
-    }
+    Medium { emission: color.map(|c| c / opacity * mean.extinction), extinction: mean.extinction }
 }
 
 fn accumulate(sum: &mut Medium, medium: Medium, weight: f64) {
@@ -197,8 +159,5 @@ fn accumulate(sum: &mut Medium, medium: Medium, weight: f64) {
 }
 
 fn scaled(medium: Medium, factor: f64) -> Medium {
-    Medium {
-        emission: medium.emission.map(|e| e * factor),
-        extinction: medium.extinction * factor,
-    }
+    Medium { emission: medium.emission.map(|e| e * factor), extinction: medium.extinction * factor }
 }

@@ -3,10 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::one_dimensional::table_value;
-use super::{
-    MAX_EXTINCTION, Medium, Rgba, TransferFunctionError, check_extent, check_finite, check_unit,
-    extinction,
-};
+use super::{MAX_EXTINCTION, Medium, Rgba, TransferFunctionError, check_extent, check_finite, check_unit, extinction};
 use crate::ValueRange;
 
 /// Standard deviations beyond which a Gaussian primitive is exactly zero.
@@ -45,25 +42,15 @@ impl Shape {
     /// How deep a point lies inside: 1 in the middle, falling linearly to 0 at the border, negative outside.
     fn depth(&self, value: f64, magnitude: f64) -> f64 {
         match *self {
-            Self::Rectangle {
-                value: v,
-                gradient: g,
-            } => depth_between(v, value).min(depth_between(g, magnitude)),
-            Self::Triangle {
-                apex,
-                base,
-                base_gradient,
-            } => {
+            Self::Rectangle { value: v, gradient: g } => depth_between(v, value).min(depth_between(g, magnitude)),
+            Self::Triangle { apex, base, base_gradient } => {
                 let tip = (magnitude - base_gradient) / (apex[1] - base_gradient);
                 // Barycentric: what remains is shared between the ends of the base.
                 let along = (value - tip * apex[0] - (1.0 - tip) * base[0]) / (base[1] - base[0]);
                 3.0 * tip.min(along).min(1.0 - tip - along)
             }
             Self::Gaussian { center, sigma } => {
-                let (v, g) = (
-                    (value - center[0]) / sigma[0],
-                    (magnitude - center[1]) / sigma[1],
-                );
+                let (v, g) = ((value - center[0]) / sigma[0], (magnitude - center[1]) / sigma[1]);
                 let edge = (-0.5 * GAUSSIAN_REACH * GAUSSIAN_REACH).exp();
                 ((-0.5 * (v * v + g * g)).exp() - edge) / (1.0 - edge)
             }
@@ -75,9 +62,7 @@ impl Shape {
         match *self {
             Self::Rectangle { value, .. } => value,
             Self::Triangle { apex, base, .. } => [base[0].min(apex[0]), base[1].max(apex[0])],
-            Self::Gaussian { center, sigma } => {
-                [-1.0, 1.0].map(|side| center[0] + side * GAUSSIAN_REACH * sigma[0])
-            }
+            Self::Gaussian { center, sigma } => [-1.0, 1.0].map(|side| center[0] + side * GAUSSIAN_REACH * sigma[0]),
         }
     }
 
@@ -87,29 +72,15 @@ impl Shape {
                 check_extent(|| format!("`value` of primitive {index}"), value)?;
                 check_extent(|| format!("`gradient` of primitive {index}"), gradient)
             }
-            Self::Triangle {
-                apex,
-                base,
-                base_gradient,
-            } => {
-                check_finite(
-                    || format!("the value of `apex` of primitive {index}"),
-                    apex[0],
-                )?;
+            Self::Triangle { apex, base, base_gradient } => {
+                check_finite(|| format!("the value of `apex` of primitive {index}"), apex[0])?;
                 check_extent(|| format!("`base` of primitive {index}"), base)?;
                 let heights = [base_gradient.min(apex[1]), base_gradient.max(apex[1])];
-                check_extent(
-                    || format!("the height (`base_gradient` and `apex`) of primitive {index}"),
-                    heights,
-                )
+                check_extent(|| format!("the height (`base_gradient` and `apex`) of primitive {index}"), heights)
             }
             Self::Gaussian { center, sigma } => {
-                center.iter().try_for_each(|&c| {
-                    check_finite(|| format!("`center` of primitive {index}"), c)
-                })?;
-                sigma.iter().try_for_each(|&s| {
-                    check_extent(|| format!("`sigma` of primitive {index}"), [0.0, s])
-                })
+                center.iter().try_for_each(|&c| check_finite(|| format!("`center` of primitive {index}"), c))?;
+                sigma.iter().try_for_each(|&s| check_extent(|| format!("`sigma` of primitive {index}"), [0.0, s]))
             }
         }
     }
@@ -144,11 +115,7 @@ impl Primitive {
             _ if self.softness > 0.0 => (depth / self.softness).min(1.0),
             _ => 1.0,
         };
-        Rgba {
-            color: self.color,
-            opacity: self.opacity * coverage,
-        }
-        .medium()
+        Rgba { color: self.color, opacity: self.opacity * coverage }.medium()
     }
 
     fn check(&self, index: usize) -> Result<(), TransferFunctionError> {
@@ -157,10 +124,7 @@ impl Primitive {
             check_unit(|| format!("{name} of primitive {index}"), component)?;
         }
         check_unit(|| format!("the opacity of primitive {index}"), self.opacity)?;
-        check_unit(
-            || format!("the softness of primitive {index}"),
-            self.softness,
-        )
+        check_unit(|| format!("the softness of primitive {index}"), self.softness)
     }
 }
 
@@ -205,10 +169,7 @@ impl TransferFunction2D {
     /// # Errors
     /// The first thing that is wrong, with the number of its primitive.
     pub fn check(&self) -> Result<(), TransferFunctionError> {
-        self.primitives
-            .iter()
-            .enumerate()
-            .try_for_each(|(index, primitive)| primitive.check(index))
+        self.primitives.iter().enumerate().try_for_each(|(index, primitive)| primitive.check(index))
     }
 
     /// Emission and extinction per reference length at a value and a gradient magnitude.
@@ -222,10 +183,7 @@ impl TransferFunction2D {
         // Several opaque primitives are as opaque as one.
         let scale = (MAX_EXTINCTION / sum.extinction).min(1.0);
         if scale < 1.0 {
-            sum = Medium {
-                emission: sum.emission.map(|e| e * scale),
-                extinction: MAX_EXTINCTION,
-            };
+            sum = Medium { emission: sum.emission.map(|e| e * scale), extinction: MAX_EXTINCTION };
         }
         sum
     }
@@ -236,31 +194,16 @@ impl TransferFunction2D {
         if medium.extinction == 0.0 {
             return Rgba::default();
         }
-        Rgba {
-            color: medium.emission.map(|e| e / medium.extinction),
-            opacity: -(-medium.extinction).exp_m1(),
-        }
+        Rgba { color: medium.emission.map(|e| e / medium.extinction), opacity: -(-medium.extinction).exp_m1() }
     }
 
     /// A table of `nx` x `ny` entries (extinction times red, green and blue, extinction) per reference length. Along a row
     /// the value runs over `range` as in [`super::TransferFunction::table`]; row `j` has the gradient magnitude
     /// `j / (ny - 1) * gradient_max`.
-    pub fn table(
-        &self,
-        range: ValueRange,
-        gradient_max: f64,
-        nx: usize,
-        ny: usize,
-    ) -> Vec<[f32; 4]> {
+    pub fn table(&self, range: ValueRange, gradient_max: f64, nx: usize, ny: usize) -> Vec<[f32; 4]> {
         let magnitudes = ValueRange::new(0.0, gradient_max);
         (0..nx * ny)
-            .map(|at| {
-                self.medium(
-                    table_value(range, nx, at % nx),
-                    table_value(magnitudes, ny, at / nx),
-                )
-                .to_entry()
-            })
+            .map(|at| self.medium(table_value(range, nx, at % nx), table_value(magnitudes, ny, at / nx)).to_entry())
             .collect()
     }
 
