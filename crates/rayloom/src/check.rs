@@ -2,12 +2,15 @@
 
 use std::path::Path;
 
-use rayloom_network::{Network, Processor, PropertyKind, Readiness, readiness};
+use rayloom_network::{Network, Processor, PropertyKind, Readiness, closest, readiness};
+use rayloom_processors::snippet_library;
+use rayloom_wgsl::{Library, Slot};
 
 use crate::failure::Failure;
 use crate::network_file;
 
-/// Loads a network and asks every sink whether it is ready and every file whether it is there. Returns what is well.
+/// Loads a network and asks every sink whether it is ready, and every file and snippet whether it is there. Returns what
+/// is well.
 ///
 /// # Errors
 /// What is not well, each with its cause.
@@ -20,7 +23,7 @@ pub fn run(file: &Path) -> Result<String, Failure> {
             problems.extend(reasons);
         }
     }
-    problems.extend(missing_files(&network));
+    problems.extend(wrong_properties(&network));
     if sinks.is_empty() {
         problems
             .push("the network has no canvas or other sink, so nothing would be evaluated; add a canvas".to_owned());
@@ -38,21 +41,45 @@ fn is_sink(processor: &Processor) -> bool {
     processor.declaration().is_some_and(|declaration| declaration.sink)
 }
 
-/// Files that processors are to read and that are not there.
-fn missing_files(network: &Network) -> Vec<String> {
-    let mut missing = Vec::new();
+/// What is wrong with single properties: a file that is not there, a snippet that does not exist, a text that is none.
+fn wrong_properties(network: &Network) -> Vec<String> {
+    let mut wrong = Vec::new();
     for processor in network.processors() {
         let properties = processor.properties();
         for decl in processor.property_decls() {
-            let read = matches!(decl.kind, PropertyKind::File { save: false, .. });
-            let Some(path) = properties.path(&decl.id).ok().filter(|path| read && !path.as_os_str().is_empty()) else {
+            let text = properties.text(&decl.id).unwrap_or_default();
+            if text.is_empty() || *text == *decl.default.to_json().as_str().unwrap_or_default() {
                 continue;
-            };
-            if !path.is_file() {
-                let place = format!("{}.{}", processor.id(), decl.id);
-                missing.push(format!("{place}: there is no file {}; correct the path", path.display()));
             }
+            let problem = match &decl.kind {
+                PropertyKind::File { save: false, .. } => missing_file(text),
+                PropertyKind::Snippet { slot } => unknown_snippet(slot, text),
+                PropertyKind::ShaderText { slot } => malformed_text(slot, &decl.id, text),
+                _ => None,
+            };
+            wrong.extend(problem.map(|problem| format!("{}.{}: {problem}", processor.id(), decl.id)));
         }
     }
-    missing
+    wrong
+}
+
+fn missing_file(path: &str) -> Option<String> {
+    (!Path::new(path).is_file()).then(|| format!("there is no file {path}; correct the path"))
+}
+
+fn unknown_snippet(slot: &str, id: &str) -> Option<String> {
+    let slot = Slot::from_id(slot)?;
+    let (library, _) = snippet_library();
+    if library.path(slot, id).is_some() {
+        return None;
+    }
+    let known: Vec<&str> = library.snippets(slot).map(|(path, _)| Library::id(path)).collect();
+    let near = closest(id, known.iter().copied());
+    let (lead, names) = if near.is_empty() { ("there are", known) } else { ("did you mean", near) };
+    Some(format!("there is no {slot} snippet `{id}`; {lead} {}", names.join(", ")))
+}
+
+fn malformed_text(slot: &str, place: &str, text: &str) -> Option<String> {
+    let (library, _) = snippet_library();
+    Library::clone(&library).add_edited(place, Slot::from_id(slot)?, text).err().map(|problem| problem.to_string())
 }

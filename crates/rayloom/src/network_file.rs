@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use rayloom_network::{LoadError, Network, Warning, closest};
+use rayloom_processors::snippet_library;
 
 use crate::args::Setting;
 use crate::failure::Failure;
@@ -28,6 +29,9 @@ pub fn load(file: &Path) -> Result<(Network, Vec<Warning>), Failure> {
 /// As [`load`], or a property that does not exist or refuses its value.
 pub fn open(file: &Path, settings: &[Setting]) -> Result<Network, Failure> {
     let (mut network, warnings) = load(file)?;
+    for problem in snippet_library().1 {
+        eprintln!("warning: {problem}");
+    }
     for warning in warnings {
         eprintln!("warning: {}: {warning}", file.display());
     }

@@ -66,7 +66,9 @@ pub fn docs() -> Result<(), String> {
             std::fs::remove_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
         }
         let pages = folder.to_string_lossy();
-        run(&mut program(&rayloom.to_string_lossy(), &["list", what, "--pages", &pages]))?;
+        let mut list = program(&rayloom.to_string_lossy(), &["list", what, "--pages", &pages]);
+        // In place of the user's own snippets, which are not to be documented: there are no snippets right in this folder.
+        run(list.env("RAYLOOM_SNIPPETS", "shaders"))?;
     }
     Ok(())
 }

@@ -34,10 +34,10 @@ pub fn run(args: &ListArgs) -> Result<String, Failure> {
     }
     let json = match (args.what, args.json) {
         (Listed::Processors, true) => processors::json(),
-        (Listed::Snippets, true) => snippets::json()?,
+        (Listed::Snippets, true) => snippets::json(),
         (Listed::Formats, true) => formats::json(),
         (Listed::Processors, false) => return Ok(processors::text()),
-        (Listed::Snippets, false) => return snippets::text(),
+        (Listed::Snippets, false) => return Ok(snippets::text()),
         (Listed::Formats, false) => return Ok(formats::text()),
     };
     Ok(serde_json::to_string_pretty(&Json::Array(json))? + "\n")
@@ -66,4 +66,14 @@ fn first_sentence(help: &str) -> &str {
 /// Text inside a cell of a Markdown table.
 fn cell(text: &str) -> String {
     text.replace('|', "\\|").replace('\n', " ")
+}
+
+/// An end of a range: short where it is large, with a sign for infinity.
+fn number(value: f64) -> String {
+    match value {
+        f64::INFINITY => "∞".to_owned(),
+        f64::NEG_INFINITY => "-∞".to_owned(),
+        value if value.abs() >= 1e6 => format!("{value:e}"),
+        value => value.to_string(),
+    }
 }

@@ -3,7 +3,7 @@
 use rayloom_network::{Choice, PropertyDecl, PropertyKind};
 use serde_json::{Value as Json, json};
 
-use super::cell;
+use super::{cell, first_sentence, number};
 
 /// Defaults longer than this are left to `--json`.
 const LONG: usize = 60;
@@ -30,12 +30,17 @@ pub fn json(decl: &PropertyDecl) -> Json {
 pub fn row(decl: &PropertyDecl) -> String {
     let default = decl.default.to_json().to_string();
     let default = if default.len() > LONG { "(longer)".to_owned() } else { format!("`{default}`") };
-    let mut help = decl.help.clone();
-    if let PropertyKind::Choice { choices } = &decl.kind {
-        for Choice { id, help: meaning, .. } in choices {
-            help += &format!("<br>`{id}`: {meaning}");
+    let help = match &decl.kind {
+        PropertyKind::Choice { choices } => choices
+            .iter()
+            .fold(decl.help.clone(), |help, Choice { id, help: meaning, .. }| help + &format!("<br>`{id}`: {meaning}")),
+        PropertyKind::Snippet { slot } => {
+            // The help lists all snippets; their pages say it better.
+            let automatic = if decl.help.starts_with("auto") { first_sentence(&decl.help) } else { "" };
+            format!("One of the [{slot} snippets](../snippets/README.md#{slot}). {automatic}").trim_end().to_owned()
         }
-    }
+        _ => decl.help.clone(),
+    };
     format!("| `{}` | {} | {} | {} |\n", decl.id, cell(&takes(&decl.kind)), cell(&default), cell(&help))
 }
 
@@ -44,17 +49,12 @@ fn takes(kind: &PropertyKind) -> String {
     use PropertyKind as K;
     let name = kind.value_name();
     match kind {
-        K::Int { range, unit } => {
-            let whole = *range == [i64::MIN, i64::MAX];
-            name.to_owned() + &span(&range[0], &range[1], !whole) + &measured(unit)
-        }
-        K::Float { range, unit, .. } => {
-            name.to_owned() + &span(&range[0], &range[1], range.iter().any(|end| end.is_finite())) + &measured(unit)
-        }
+        K::Int { range: [i64::MIN, i64::MAX], unit } => name.to_owned() + &measured(unit),
+        K::Int { range: [min, max], unit } => format!("{name} from {min} to {max}{}", measured(unit)),
+        K::Float { range, unit, .. } => name.to_owned() + &span(*range) + &measured(unit),
         K::Vector { len, range, unit, whole } => {
             let numbers = if *whole { "whole numbers" } else { "numbers" };
-            let bounded = range.iter().any(|end| end.is_finite());
-            format!("{len} {numbers}") + &span(&range[0], &range[1], bounded) + &measured(unit)
+            format!("{len} {numbers}{}{}", span(*range), measured(unit))
         }
         K::Choice { .. } => "one of the choices".to_owned(),
         K::Snippet { slot } => format!("a {slot} snippet"),
@@ -68,11 +68,9 @@ fn takes(kind: &PropertyKind) -> String {
     }
 }
 
-fn span(min: &impl ToString, max: &impl ToString, bounded: bool) -> String {
-    if !bounded {
-        return String::new();
-    }
-    format!(" from {} to {}", min.to_string().replace("-inf", "-∞"), max.to_string().replace("inf", "∞"))
+fn span(range: [f64; 2]) -> String {
+    let [min, max] = range.map(number);
+    if range.iter().any(|end| end.is_finite()) { format!(" from {min} to {max}") } else { String::new() }
 }
 
 fn measured(unit: &str) -> String {

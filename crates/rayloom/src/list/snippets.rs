@@ -1,30 +1,31 @@
 //! The snippets of the ray loop: text, JSON, and a page each.
 
+use rayloom_processors::snippet_library;
 use rayloom_wgsl::{Declaration, Library, Parameter, ParameterType, Slot, TRAVERSAL, contract};
 use serde_json::{Value as Json, json};
 
-use super::{Page, cell, columns, first_sentence};
+use super::{Page, cell, columns, first_sentence, number};
 use crate::failure::Failure;
 
-/// The snippets by slot, one line each.
-pub fn text() -> Result<String, Failure> {
-    let library = Library::built_in()?;
+/// The snippets by slot, those of the user's folder included, one line each.
+pub fn text() -> String {
+    let (library, _) = snippet_library();
     let mut text = String::new();
     for slot in Slot::ALL {
         let snippets = library.snippets(slot).map(|(path, declaration)| (Library::id(path), declaration.help.as_str()));
         text += &format!("{slot}\n{}", columns(snippets));
     }
-    Ok(text)
+    text
 }
 
-/// One object a snippet, with everything it declares.
-pub fn json() -> Result<Vec<Json>, Failure> {
-    let library = Library::built_in()?;
+/// One object a snippet, those of the user's folder included, with everything it declares.
+pub fn json() -> Vec<Json> {
+    let (library, _) = snippet_library();
     let snippets = Slot::ALL.into_iter().flat_map(|slot| library.snippets(slot));
-    Ok(snippets.map(|(path, declaration)| declared(path, declaration)).collect())
+    snippets.map(|(path, declaration)| declared(path, declaration)).collect()
 }
 
-/// A page for every snippet in a folder for each slot, and one with the contracts of the slots.
+/// A page for every built-in snippet in a folder for each slot, and one with the contracts of the slots.
 pub fn pages() -> Result<Vec<Page>, Failure> {
     let library = Library::built_in()?;
     let skeleton = library.source(TRAVERSAL).map_or("", |source| &source.text);
@@ -41,9 +42,8 @@ pub fn pages() -> Result<Vec<Page>, Failure> {
         overview += "| snippet | what it does |\n|---|---|\n";
         for (path, declaration) in library.snippets(slot) {
             let id = Library::id(path);
-            let text = library.source(path).map_or("", |source| &source.text);
             overview += &format!("| [`{id}`]({slot}/{id}.md) | {} |\n", cell(first_sentence(&declaration.help)));
-            pages.push(Page { path: format!("{slot}/{id}.md"), text: page_text(path, declaration, text) });
+            pages.push(Page { path: format!("{slot}/{id}.md"), text: page_text(path, declaration) });
         }
     }
     pages.push(Page { path: "README.md".to_owned(), text: overview });
@@ -104,10 +104,10 @@ fn refusals(declaration: &Declaration) -> Vec<String> {
     declaration.forbids.iter().map(refusal).collect()
 }
 
-fn page_text(path: &str, declaration: &Declaration, source: &str) -> String {
+fn page_text(path: &str, declaration: &Declaration) -> String {
     let Declaration { slot, label, help, reads, parameters, .. } = declaration;
-    let mut text =
-        format!("# {label}\n\nSnippet `{}` of the slot {slot}, file `shaders/{path}`.\n\n{help}\n", Library::id(path));
+    let (id, file) = (Library::id(path), format!("[`shaders/{path}`](../../../shaders/{path})"));
+    let mut text = format!("# {label}\n\nSnippet `{id}` of the slot {slot}, {file}.\n\n{help}\n");
     if !reads.is_empty() {
         let reads: Vec<String> = reads.iter().map(|read| format!("`{read}`")).collect();
         text += &format!("\nReads {}.\n", reads.join(", "));
@@ -116,14 +116,22 @@ fn page_text(path: &str, declaration: &Declaration, source: &str) -> String {
         text += &format!("\nCannot be combined: {refusal}.\n");
     }
     if !parameters.is_empty() {
-        text += "\n## Parameters\n\n| name | takes | default | help |\n|---|---|---|---|\n";
+        text += &format!("\n## Parameters\n\nProperties of the ray traversal that begin with `{slot}.`");
+        if *slot == Slot::Compositing {
+            text += " (`compositing2.` and `compositing3.` for its other outputs)";
+        }
+        text += ".\n\n| name | takes | default | help |\n|---|---|---|---|\n";
         for parameter in parameters {
-            let [min, max] = parameter.range;
-            let unit = if parameter.unit.is_empty() { String::new() } else { format!(", {}", parameter.unit) };
+            let [min, max] = parameter.range.map(number);
+            let unit = match parameter.unit.as_str() {
+                "" => String::new(),
+                "data" => ", the volume's own unit".to_owned(),
+                unit => format!(", {unit}"),
+            };
             let takes = format!("{} from {min} to {max}{unit}", type_name(parameter.ty));
             text +=
                 &format!("| `{}` | {takes} | `{}` | {} |\n", parameter.name, default(parameter), cell(&parameter.help));
         }
     }
-    text + &format!("\n## Source\n\n```wgsl\n{}\n```\n", source.trim_end())
+    text
 }

@@ -1,0 +1,7 @@
+//! The built command line from outside: exit codes, texts and files.
+
+mod documents;
+mod failures;
+mod listings;
+mod pictures;
+mod program;
