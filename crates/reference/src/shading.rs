@@ -34,8 +34,9 @@ pub struct BlinnPhong {
     pub light_color: [f64; 3],
     /// Whether normals that point away from the viewer are turned around.
     pub two_sided: bool,
-    /// Gradient magnitude, in shares of the value range per voxel, at which the colour is half lit; weaker gradients, whose
-    /// direction is mostly noise, fade to the unlit colour. Zero lights every gradient but none.
+    /// Gradient magnitude in world space, in shares of the value range per mean voxel spacing (the edge of a cube as large as
+    /// a voxel), at which the colour is half lit; weaker gradients, whose direction is mostly noise, fade to the unlit colour.
+    /// Zero lights every gradient but none.
     pub gradient_fade: f64,
 }
 
@@ -76,7 +77,7 @@ impl BlinnPhong {
         [0, 1, 2].map(|i| color[i] * (self.ambient + diffuse * self.light_color[i]) + specular * self.light_color[i])
     }
 
-    /// How much of the lit colour shows, 0 to 1, for a gradient of `magnitude` in shares of the range per voxel.
+    /// How much of the lit colour shows, 0 to 1, for a gradient of `magnitude` in shares of the range per mean voxel spacing.
     pub fn weight(&self, magnitude: f64) -> f64 {
         if magnitude > 0.0 { magnitude / (magnitude + self.gradient_fade) } else { 0.0 }
     }

@@ -37,6 +37,8 @@ pub struct Renderer<'a> {
     world_to_texture: DAffine3,
     /// Takes gradients per voxel to gradients per world unit.
     gradient_to_world: DMat3,
+    /// Edge of a cube as large as a voxel, world units.
+    mean_spacing: f64,
     towards_light: DVec3,
 }
 
@@ -55,6 +57,7 @@ impl<'a> Renderer<'a> {
             texture_to_world,
             world_to_texture: texture_to_world.inverse(),
             gradient_to_world: scene.volume.index_to_world.matrix3.inverse().transpose(),
+            mean_spacing: scene.volume.index_to_world.matrix3.determinant().abs().cbrt(),
             towards_light: scene.shading.map_or(DVec3::ZERO, |shading| shading.towards_light(&view)),
             view,
             scene,
@@ -131,9 +134,10 @@ impl<'a> Renderer<'a> {
     fn lit(&self, color: [f64; 3], texture: DVec3, ray: &Ray) -> [f64; 3] {
         let Some(shading) = &self.scene.shading else { return color };
         let gradient = self.scene.gradient.gradient(&self.field, self.field.texture_to_index(texture));
+        let steepness = (self.gradient_to_world * gradient).length() * self.mean_spacing;
         // A range of no width has no gradient either.
         let width = self.field.range().width();
-        let weight = if width > 0.0 { shading.weight(gradient.length() / width) } else { 0.0 };
+        let weight = if width > 0.0 { shading.weight(steepness / width) } else { 0.0 };
         if weight == 0.0 {
             return color;
         }
