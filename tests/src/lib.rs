@@ -1,5 +1,12 @@
 //! Helpers shared by the whole-program tests.
 
+pub mod chain;
+pub mod grid;
+pub mod rays;
+pub mod tolerances;
+
+pub use grid::{Grid, VolumeFile};
+
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
@@ -80,8 +87,12 @@ impl Workbench {
 
     /// Sets a property from JSON text.
     pub fn set(&mut self, property: &str, json: &str) -> &mut Self {
+        self.put(property, serde_json::from_str(json).unwrap_or_else(|error| panic!("{json}: {error}")))
+    }
+
+    /// Sets a property from JSON.
+    pub fn put(&mut self, property: &str, json: serde_json::Value) -> &mut Self {
         let (processor, id) = property.split_once('.').expect("PROCESSOR.PROPERTY");
-        let json = serde_json::from_str(json).unwrap_or_else(|error| panic!("{json}: {error}"));
         self.network.set_from_json(processor, id, &json).unwrap_or_else(|error| panic!("{error}"));
         self
     }
