@@ -1,5 +1,5 @@
 use std::cell::Cell;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crate::{Gpu, GpuError};
 
@@ -8,11 +8,22 @@ const PASSES: u32 = 64;
 
 /// Measures the GPU time of passes with timestamp queries: hand [`Timer::compute_pass`] or [`Timer::render_pass`] to
 /// each pass, submit, then ask [`Timer::finish`] for the sum. On a device without timestamps every answer is `None`.
+///
+/// Software adapters run compute shaders while a submission is taken in and write timestamps whenever their rasteriser
+/// gets to them, so there the clock on the wall is read instead: from the first pass to the end of all work.
 #[derive(Debug)]
 pub struct Timer {
-    queries: Option<Queries>,
+    clock: Clock,
     used: Cell<u32>,
     enabled: bool,
+}
+
+/// What the time is read from.
+#[derive(Debug)]
+enum Clock {
+    None,
+    Device(Queries),
+    Wall(Cell<Option<Instant>>),
 }
 
 #[derive(Debug)]
@@ -26,8 +37,12 @@ struct Queries {
 impl Timer {
     /// A timer, switched on.
     pub fn new(gpu: &Gpu) -> Result<Self, GpuError> {
-        let queries = if gpu.features.timestamps { Some(Queries::new(gpu)?) } else { None };
-        Ok(Self { queries, used: Cell::new(0), enabled: true })
+        let clock = match gpu.info.device_type {
+            wgpu::DeviceType::Cpu => Clock::Wall(Cell::new(None)),
+            _ if gpu.features.timestamps => Clock::Device(Queries::new(gpu)?),
+            _ => Clock::None,
+        };
+        Ok(Self { clock, used: Cell::new(0), enabled: true })
     }
 
     /// Switches measuring on or off. Reading a measurement waits for the device, so off is faster.
@@ -37,7 +52,7 @@ impl Timer {
 
     /// Whether passes are being measured.
     pub fn enabled(&self) -> bool {
-        self.enabled && self.queries.is_some()
+        self.enabled && !matches!(self.clock, Clock::None)
     }
 
     /// The `timestamp_writes` of the next compute pass.
@@ -61,7 +76,17 @@ impl Timer {
     }
 
     fn next_pair(&self) -> Option<(&wgpu::QuerySet, u32)> {
-        let queries = self.queries.as_ref().filter(|_| self.enabled)?;
+        if !self.enabled {
+            return None;
+        }
+        let queries = match &self.clock {
+            Clock::Device(queries) => queries,
+            Clock::Wall(start) => {
+                start.set(start.get().or_else(|| Some(Instant::now())));
+                return None;
+            }
+            Clock::None => return None,
+        };
         let pass = self.used.get();
         (pass < PASSES).then(|| {
             self.used.set(pass + 1);
@@ -72,14 +97,23 @@ impl Timer {
     /// Forgets the passes handed out since the last [`Timer::finish`], which may not have been submitted.
     pub fn discard(&self) {
         self.used.set(0);
+        if let Clock::Wall(start) = &self.clock {
+            start.set(None);
+        }
     }
 
     /// The summed time of the passes handed out since the last call, all of which must have been submitted; `None`
     /// if there were none, or nothing can be measured. Waits for the device.
     pub fn finish(&self, gpu: &Gpu) -> Result<Option<Duration>, GpuError> {
         let passes = self.used.take();
-        let Some(queries) = self.queries.as_ref().filter(|_| passes > 0) else {
-            return Ok(None);
+        let queries = match &self.clock {
+            Clock::Device(queries) if passes > 0 => queries,
+            Clock::Wall(start) => {
+                let Some(start) = start.take() else { return Ok(None) };
+                gpu.wait("measuring GPU time")?;
+                return Ok(Some(start.elapsed()));
+            }
+            _ => return Ok(None),
         };
         gpu.guarded("measuring GPU time", || {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
