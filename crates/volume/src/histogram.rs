@@ -1,9 +1,9 @@
 //! Histograms of values, and of values and gradient magnitudes.
 
-use glam::DMat3;
+use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
-use crate::gradient::{Grid, Operator};
+use crate::gradient::{GradientRows, Operator};
 use crate::{Element, ValueRange, Volume, with_voxels};
 
 /// How often values occur.
@@ -59,29 +59,43 @@ pub fn histogram(volume: &Volume, channel: u32, bins: usize) -> Histogram {
 /// When there is no such channel or no bin along one of the axes.
 pub fn histogram_2d(volume: &Volume, channel: u32, bins: [usize; 2]) -> Histogram2D {
     let range = volume.ranges()[channel as usize];
-    let grid = Grid::new(volume, channel);
     let to_world = gradient_to_world(volume);
-    let magnitude = |index: [usize; 3]| (to_world * grid.gradient(index, Operator::CentralDifferences)).length();
-    let rows = || (0..grid.dims[1] * grid.dims[2]).into_par_iter();
-    let row = |at: usize| (0..grid.dims[0]).map(move |i| [i, at % grid.dims[1], at / grid.dims[1]]);
-
-    let gradient_max = rows().map(|at| row(at).map(magnitude).fold(0.0, f64::max)).reduce(|| 0.0, f64::max);
-    let count = |mut counts: Vec<u64>, at: usize| {
-        for index in row(at) {
-            let value = volume.value(index.map(|i| i as u32), channel);
-            if value.is_finite() {
-                let steepness = if gradient_max > 0.0 { magnitude(index) / gradient_max } else { 0.0 };
-                counts[bin(steepness, bins[1]) * bins[0] + bin(range.normalise(value), bins[0])] += 1;
-            }
-        }
-        counts
+    let [_, ny, nz] = volume.dims.map(|n| n as usize);
+    let rows = || (0..ny * nz).into_par_iter();
+    let start = || GradientRows::new(volume, channel, Operator::CentralDifferences);
+    let largest = |work: &mut GradientRows<'_>, at: usize| {
+        work.compute(at % ny, at / ny);
+        magnitudes(work, to_world).fold(0.0, f64::max)
     };
-    let counts = rows().fold(|| vec![0; bins[0] * bins[1]], count).reduce(|| vec![0; bins[0] * bins[1]], add);
+    let gradient_max = rows().map_init(start, largest).reduce(|| 0.0, f64::max);
+
+    let empty = || vec![0; bins[0] * bins[1]];
+    let counted = rows().fold(
+        || (start(), empty()),
+        |(mut work, mut counts), at| {
+            work.compute(at % ny, at / ny);
+            for (i, magnitude) in magnitudes(&work, to_world).enumerate() {
+                let value = volume.value([i as u32, (at % ny) as u32, (at / ny) as u32], channel);
+                if value.is_finite() {
+                    let steepness = if gradient_max > 0.0 { magnitude / gradient_max } else { 0.0 };
+                    counts[bin(steepness, bins[1]) * bins[0] + bin(range.normalise(value), bins[0])] += 1;
+                }
+            }
+            (work, counts)
+        },
+    );
+    let counts = counted.map(|(_, counts)| counts).reduce(empty, add);
     Histogram2D { range, gradient_max, bins, counts }
 }
 
+/// The gradient magnitudes of a row, data units per world unit.
+fn magnitudes<'a>(rows: &'a GradientRows<'_>, to_world: DMat3) -> impl Iterator<Item = f64> + 'a {
+    let [x, y, z] = &rows.gradient;
+    x.iter().zip(y).zip(z).map(move |((&x, &y), &z)| (to_world * DVec3::new(x, y, z)).length())
+}
+
 /// Turns a gradient per voxel index step into one per world unit.
-pub(crate) fn gradient_to_world(volume: &Volume) -> DMat3 {
+fn gradient_to_world(volume: &Volume) -> DMat3 {
     volume.index_to_world.matrix3.inverse().transpose()
 }
 

@@ -136,7 +136,7 @@ fn read_as<E: Element>(
             source.header,
             progress,
         )?,
-        _ => read_binary::<E>(source, layout.endian, progress)?,
+        _ => read_binary::<E>(source, layout, progress)?,
     };
     if layout.planar && layout.channels > 1 {
         elements = interleaved(&elements, layout.channels as usize);
@@ -148,7 +148,7 @@ fn read_as<E: Element>(
 /// data costs no more memory than the data.
 fn read_binary<E: Element>(
     mut source: Source<'_>,
-    endian: Endian,
+    layout: &RawLayout,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Vec<E>, ReadError> {
     let total = (source.bytes / size_of::<E>() as u64) as usize;
@@ -165,10 +165,14 @@ fn read_binary<E: Element>(
         if found < wanted.len() {
             return Err(source.too_short(start * size_of::<E>() + found));
         }
-        if endian != Endian::NATIVE && size_of::<E>() > 1 {
+        if layout.endian != Endian::NATIVE && size_of::<E>() > 1 {
             elements[start..].par_iter_mut().for_each(|element| *element = element.reversed());
         }
         progress(Progress { done: (elements.len() * size_of::<E>()) as u64, total: source.bytes });
+    }
+    // The checksum of compressed data is compared when its end is read, not before.
+    if layout.encoding != Encoding::Raw {
+        let _further = source.unpacked.read(&mut [0]).map_err(source.data.io("verify the checksum of the voxels"))?;
     }
     elements.shrink_to_fit();
     Ok(elements)

@@ -24,7 +24,7 @@ const GAUSS: [(f64, f64); 5] = [
 ];
 
 /// Self-attenuation is integrated over at least this many parts of a segment; second order in their number.
-const MIN_PARTS: usize = 32;
+const MIN_PARTS: usize = 128;
 
 impl TransferFunction {
     /// The mean emission and extinction over the values from `from` to `to` (data units, either order), exact up to the
