@@ -1,5 +1,5 @@
 //! The assembled ray loop against one written by hand, with the same maths on the same textures: A B A B in one run,
-//! by timestamp queries. Prints the ratio; asserts only that both draw the same picture.
+//! by GPU time. Prints the ratio; asserts only that both draw the same picture.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -7,8 +7,8 @@ use std::time::Duration;
 use bytemuck::{Pod, Zeroable};
 use rayloom_gpu::wgpu::{self, TextureFormat};
 use rayloom_gpu::{Gpu, PipelineCache, Texture, TexturePool, Timer};
-use rayloom_network::Level;
 use rayloom_processors::{Data, Image, VolumeData};
+use rayloom_tests::timing::{Summary, time_again};
 use rayloom_tests::{Picture, Workbench};
 
 const SIZE: u32 = 512;
@@ -42,15 +42,14 @@ fn main() {
 
     let mut times = [Vec::new(), Vec::new()];
     for _ in 0..ROUNDS {
-        times[0].push(traverse_again(&mut bench));
+        times[0].push(time_again(&mut bench, "traversal", "image", [SIZE; 2]));
         times[1].push(hand_written.run());
     }
-    let ratios: Vec<f64> = times[0].iter().zip(&times[1]).map(|(a, b)| a / b).collect();
     println!("unshaded DVR of 181 x 217 x 181 voxels at {SIZE} x {SIZE}, one sample a voxel, on {}", hand_written.gpu.describe());
     println!("largest difference of the pictures {difference:.1e}");
-    println!("assembled    {}", summary(&times[0], "ms"));
-    println!("hand-written {}", summary(&times[1], "ms"));
-    println!("ratio        {}   ({ROUNDS} pairs)", summary(&ratios, ""));
+    println!("assembled    {} ms", Summary::of(&times[0]));
+    println!("hand-written {} ms", Summary::of(&times[1]));
+    println!("ratio        {}, {ROUNDS} pairs", Summary::of_ratios(&times[0], &times[1]));
 }
 
 fn difference(a: &Picture, b: &Picture) -> f32 {
@@ -60,27 +59,8 @@ fn difference(a: &Picture, b: &Picture) -> f32 {
     depths.fold(colors, f32::max)
 }
 
-fn summary(samples: &[f64], unit: &str) -> String {
-    let mut sorted = samples.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let at = |share: f64| sorted[((sorted.len() - 1) as f64 * share).round() as usize];
-    format!("median {:.3} {unit} (5 % {:.3}, 95 % {:.3})", at(0.5), at(0.05), at(0.95))
-}
-
 fn milliseconds(time: Option<Duration>) -> f64 {
     time.expect("the device has timestamp queries").as_secs_f64() * 1e3
-}
-
-/// GPU time of the traversal alone, milliseconds.
-fn traverse_again(bench: &mut Workbench) -> f64 {
-    bench.evaluator.invalidate("traversal", Level::Result, "measured again");
-    let request = rayloom_network::Request {
-        watch: vec![("traversal", "image").into()],
-        sinks: rayloom_network::Sinks::Only(Vec::new()),
-        size: Some([SIZE, SIZE]),
-    };
-    let report = bench.evaluate(&request);
-    milliseconds(report.runs.iter().find(|run| run.processor == "traversal").and_then(|run| run.gpu))
 }
 
 struct HandWritten {

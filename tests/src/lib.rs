@@ -1,4 +1,6 @@
-//! Helpers shared by the whole-program tests.
+//! Helpers shared by the whole-program tests and benches.
+
+pub mod timing;
 
 pub mod chain;
 pub mod grid;

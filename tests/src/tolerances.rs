@@ -10,3 +10,31 @@ pub const AGREEMENT_PIXEL: f64 = 2.0 / 255.0;
 /// Agreement: share of the pixels that hold [`AGREEMENT_PIXEL`]. The rest are rays that graze a surface: f32 and f64 may
 /// disagree on whether they cross it.
 pub const AGREEMENT_SHARE: f64 = 0.999;
+
+/// T1, T4: opacity of a medium that the midpoint rule integrates exactly. Rounding of entry and exit points (6e-8 of the box
+/// each), of the table and of up to 1000 composited samples, whose errors mostly cancel.
+pub const OPACITY: f64 = 2e-6;
+/// T1 with opacity 1e-8 a sample: relative error after 1e5 samples. Each addition rounds to 2^-34 at worst while the sum is
+/// near 1e-3, which is 6e-3 of a sample but of either sign.
+pub const FAINT: f64 = 1e-4;
+/// T2: two units in the last place of 1.
+pub const FURNACE: f64 = 2.4e-7;
+/// T3: emission and extinction are rounded on their own, in the table and at each of a few operations.
+pub const ONE_COLOR: f64 = 1e-6;
+/// T5, T6: error of the colour at 32 samples.
+pub const RAMP_AT_32: f64 = 3e-4;
+/// T6: the same at 256 samples, by its order.
+pub const RAMP_AT_256: f64 = RAMP_AT_32 / 64.0;
+/// Observed orders of convergence of second order methods.
+pub const SECOND_ORDER: std::ops::RangeInclusive<f64> = 1.9..=2.1;
+/// Smaller errors of ramps show no order: that of f32 and of the 1024 entries of the table, between which emission runs
+/// linearly and not as a square (5e-7), is a tenth of this.
+pub const ORDER_ABOVE: f64 = 5e-6;
+/// T8, T11: mean observed order where single errors are irregular.
+pub const FIRST_ORDER: std::ops::RangeInclusive<f64> = 0.8..=1.2;
+/// T8: cells of a transfer function's table a value range: within one, a step is a ramp.
+pub const STEP_TABLE: f64 = 1023.0;
+/// The same for pre-integrated tables, along either value.
+pub const STEP_TABLE_2D: f64 = 255.0;
+/// T8 with pre-integration, segments ending on table entries: rounding in the table and of up to 255 samples.
+pub const STEP_PREINTEGRATED: f64 = 2e-6;

@@ -22,8 +22,9 @@ pub struct Validated {
 /// What the parser or validator refused, at file, line and column of the snippet it came from.
 pub fn validate(library: &Library, assembled: Assembled) -> Result<Validated, Box<Diagnostic>> {
     let module = naga::front::wgsl::parse_str(&assembled.text).map_err(|error| {
-        let notes: Vec<_> = error.labels().map(|(_, note)| note.to_owned()).filter(|note| !note.is_empty()).collect();
         let mut message = error.message().to_owned();
+        let adds = |note: &str| !note.is_empty() && !error.message().contains(note);
+        let notes: Vec<_> = error.labels().map(|(_, note)| note).filter(|note| adds(note)).collect();
         if !notes.is_empty() {
             message += &format!(" ({})", notes.join("; "));
         }

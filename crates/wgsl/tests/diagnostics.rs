@@ -1,0 +1,181 @@
+//! What a person who edits a snippet is told: complete texts, with file, line and column of the snippet.
+
+use std::collections::BTreeMap;
+
+use proptest::prelude::*;
+use rayloom_wgsl::{Choice, Library, Slot, assemble, validate};
+
+/// A choice of built-in snippets.
+fn choice(library: &Library, slots: &[(Slot, &str)], output: &str) -> Choice {
+    let path = |slot, id: &str| library.path(slot, id).unwrap_or_else(|| panic!("{slot} {id}"));
+    let defaults = [
+        (Slot::Sampling, "filtered"),
+        (Slot::Gradient, "central"),
+        (Slot::Classification, "transfer_function"),
+        (Slot::Shading, "blinn_phong"),
+        (Slot::Refinement, "linear"),
+        (Slot::Skipping, "none"),
+    ];
+    let mut snippets: BTreeMap<_, _> = defaults.into_iter().map(|(slot, id)| (slot, path(slot, id))).collect();
+    snippets.extend(slots.iter().map(|&(slot, id)| (slot, path(slot, id))));
+    Choice {
+        snippets,
+        outputs: [Some(path(Slot::Compositing, output)), None, None],
+        early_termination: true,
+        statistics: false,
+        half_targets: false,
+        channel: 0,
+        channels: 1,
+    }
+}
+
+/// The text of a built-in snippet.
+fn text(library: &Library, path: &str) -> String {
+    library.source(path).map(|source| source.text.to_string()).unwrap_or_else(|| panic!("{path}"))
+}
+
+/// Uses `text` as this processor's own snippet and returns what is wrong with it.
+fn problem(slot: Slot, text: &str) -> Option<String> {
+    let mut library = Library::built_in().expect("built-in snippets");
+    let path = match library.add_edited(slot.id(), slot, text) {
+        Ok(path) => path,
+        Err(problem) => return Some(problem.to_string()),
+    };
+    let mut choice = choice(&library, &[], "dvr");
+    if slot == Slot::Compositing {
+        choice.outputs[0] = Some(path);
+    } else {
+        choice.snippets.insert(slot, path);
+    }
+    match assemble(&library, &choice) {
+        Ok(assembled) => validate(&library, assembled).err().map(|problem| problem.to_string()),
+        Err(problems) => Some(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")),
+    }
+}
+
+/// Edits a built-in snippet and returns what is wrong with the result.
+fn edited(path: &str, from: &str, to: &str) -> String {
+    let library = Library::built_in().expect("built-in snippets");
+    let original = text(&library, path);
+    assert!(original.contains(from), "{path} does not contain `{from}`");
+    let slot = library.declaration(path).expect("a snippet").slot;
+    problem(slot, &original.replacen(from, to, 1)).expect("must be refused")
+}
+
+#[test]
+fn mistakes_are_shown_where_they_are() {
+    insta::assert_snapshot!(edited("compositing/dvr.wgsl", "let color = (*state).color;", "let color = (*state).color"), @r#"
+    edited/compositing.wgsl:19:5: expected `;`, found "("
+      19 |     (*state).color = color + (1.0 - color.w) * absorb(s.medium, s.length);
+         |     ^
+    "#);
+    insta::assert_snapshot!(edited("shading/blinn_phong.wgsl", "params.diffuse * lambert", "params.diffuse * lamberd"), @r"
+    edited/shading.wgsl:15:53: no definition in scope for identifier: `lamberd` (unknown identifier)
+      15 |     let diffuse = params.ambient + params.diffuse * lamberd * surface.light_color;
+         |                                                     ^
+    ");
+    insta::assert_snapshot!(edited("gradient/central.wgsl", "slopes(p, 1.0, 1.0);", "slopes(p, 1.0, 1.0) * vec2f(0.5);"), @r"
+    edited/gradient.wgsl:8:12: Function [12] 'gradient_at' is invalid: Expression [7] is invalid: Operation Multiply can't work with [4] (of type Vector { size: Tri, scalar: Scalar { kind: Float, width: 4 } }) and [6] (of type Vector { size: Bi, scalar: Scalar { kind: Float, width: 4 } })
+      8 |     return slopes(p, 1.0, 1.0) * vec2f(0.5);
+        |            ^
+    ");
+    insta::assert_snapshot!(edited("classification/transfer_function.wgsl", "s.value);", "s.value).x;"), @r"
+    edited/classification.wgsl:10:12: Function [15] 'classify' is invalid: The `return` expression Some([5]) does not match the declared return type Some([1])
+      10 |     return table_lookup(transfer_table, 0, s.value).x;
+         |            ^
+    ");
+    insta::assert_snapshot!(edited("shading/blinn_phong.wgsl", "params.shininess)", "params.shinyness)"), @r"
+    edited/shading.wgsl:14:53: no parameter `shinyness` is declared; add a line such as `//! param shinyness: f32 = 1 [0, 2] -- what it does`
+      14 |     let highlight = blinn_highlight(surface, params.shinyness);
+         |                                                     ^
+    ");
+}
+
+#[test]
+fn a_broken_contract_is_told_at_the_snippet() {
+    insta::assert_snapshot!(edited("gradient/central.wgsl", "fn gradient_at(", "fn gradient("), @r"
+    edited/gradient.wgsl:1:1: a gradient snippet must define `fn gradient_at(p: vec3f, voxel: vec4f) -> vec3f`
+      1 | //! slot: gradient
+        | ^
+    ");
+    insta::assert_snapshot!(edited("gradient/central.wgsl", "voxel: vec4f", "voxel: vec3f"), @r"
+    edited/gradient.wgsl:7:1: the contract of slot gradient is `fn gradient_at(p: vec3f, voxel: vec4f) -> vec3f`
+      7 | fn gradient_at(p: vec3f, voxel: vec3f) -> vec3f {
+        | ^
+    ");
+    insta::assert_snapshot!(edited("compositing/mip.wgsl", "struct State", "struct Memory"), @r"
+    edited/compositing.wgsl:1:1: a compositing snippet must define `struct State`
+      1 | //! slot: compositing
+        | ^
+    ");
+    insta::assert_snapshot!(edited("gradient/central.wgsl", "#include \"gradient/slope.wgsl\"", "#include \"gradient/slop.wgsl\""), @"edited/gradient.wgsl:5: the file `gradient/slop.wgsl` to include does not exist");
+    insta::assert_snapshot!(edited("gradient/central.wgsl", "#include \"gradient/slope.wgsl\"", "#if previous"), @"edited/gradient.wgsl:5: #if without #endif");
+    insta::assert_snapshot!(edited("shading/toon.wgsl", "//! slot: shading", "//! slot: gradient"), @r"
+    edited/shading.wgsl:1: the text declares slot `gradient`, but it is used as `shading`
+      1 | //! slot: gradient
+    ");
+}
+
+#[test]
+fn combinations_that_make_no_sense_are_refused_with_the_reason() {
+    let library = Library::built_in().expect("built-in snippets");
+    let refusal = |slots: &[(Slot, &str)], output| {
+        let problems = choice(&library, slots, output).check(&library).expect_err("must be refused");
+        problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+    };
+    insta::assert_snapshot!(refusal(&[(Slot::Gradient, "none")], "dvr"), @"shading `blinn_phong` reads the gradient, but the gradient slot is empty: choose a gradient operator, for example `central`.");
+    insta::assert_snapshot!(refusal(&[(Slot::Classification, "preintegrated_full")], "mip"), @"compositing `mip` cannot be combined with classification `preintegrated_full`, because a maximum is a point, not a segment.");
+    insta::assert_snapshot!(refusal(&[(Slot::Skipping, "distance")], "mip"), @"skipping `distance` cannot be combined with compositing `mip`, which needs every sample of the ray: choose skipping `none`.");
+    insta::assert_snapshot!(refusal(&[(Slot::Classification, "labels"), (Slot::Skipping, "occupancy")], "dvr"), @"skipping `occupancy` cannot know what is empty with this classification, in which any value may be visible: choose skipping `none`.");
+    insta::assert_snapshot!(refusal(&[(Slot::Classification, "labels")], "mean"), @"compositing `mean` cannot be combined with classification `labels`, because a mean of values has no place and so no label.");
+    insta::assert_snapshot!(refusal(&[(Slot::Sampling, "bspline"), (Slot::Gradient, "precomputed")], "dvr"), @"sampling `bspline` cannot be combined with gradient `precomputed`, because the coefficients hold one channel and no gradient.");
+}
+
+#[test]
+fn two_snippets_may_use_the_same_names() {
+    let library = Library::built_in().expect("built-in snippets");
+    let helper = "fn soft(x: f32) -> f32 { return x; }\n";
+    let shading = text(&library, "shading/diffuse.wgsl").replace("max(dot(surface.normal, surface.light), 0.0)", "soft(dot(surface.normal, surface.light))");
+    assert_eq!(problem(Slot::Shading, &(shading + helper)), None);
+    let mut choice = choice(&library, &[], "mip");
+    choice.outputs = [choice.outputs[0].clone(), choice.outputs[0].clone(), choice.outputs[0].clone()];
+    let assembled = assemble(&library, &choice).expect("three outputs of one kind");
+    assert!(validate(&library, assembled).is_ok());
+}
+
+#[test]
+fn only_what_is_read_is_emitted() {
+    let library = Library::built_in().expect("built-in snippets");
+    let lines = |choice: &Choice| {
+        let assembled = assemble(&library, choice).expect("legal");
+        let text = assembled.text.clone();
+        assert_eq!(text.lines().count(), assembled.map.lines().len());
+        validate(&library, assembled).expect("valid");
+        text
+    };
+    let unshaded = lines(&choice(&library, &[(Slot::Shading, "none")], "dvr"));
+    for absent in ["fn gradient_at", "fn lit", "fn refine", "fn skip_empty", "preintegrated_table", "label_table", "out2_"] {
+        assert!(!unshaded.contains(absent), "{absent}");
+    }
+    assert!(lines(&choice(&library, &[], "dvr")).contains("fn gradient_at"));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    /// Snippets that lost or gained characters: an error with a place or a valid shader, never a panic or a hang.
+    #[test]
+    fn damaged_snippets_never_panic(which in any::<prop::sample::Index>(), at in any::<prop::sample::Index>(), cut in 0usize..40, junk in "[ -~\n]{0,12}") {
+        let library = Library::built_in().expect("built-in snippets");
+        let paths: Vec<_> = Slot::ALL.into_iter().flat_map(|slot| library.snippets(slot).map(|(path, _)| path.clone())).collect();
+        let path = &paths[which.index(paths.len())];
+        let slot = library.declaration(path).expect("a snippet").slot;
+        let original: Vec<char> = text(&library, path).chars().collect();
+        let start = at.index(original.len());
+        let end = (start + cut).min(original.len());
+        let damaged: String = original[..start].iter().copied().chain(junk.chars()).chain(original[end..].iter().copied()).collect();
+        if let Some(message) = problem(slot, &damaged) {
+            prop_assert!(message.contains(".wgsl") || message.contains("<generated") || message.starts_with("ray traversal: "), "{message}");
+        }
+    }
+}
