@@ -44,12 +44,12 @@ impl Drop for Line {
 }
 
 fn show(bar: &ProgressBar, who: &str, Progress { done, total }: Progress) {
+    bar.set_message(format!("reading {who}"));
     if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} [{bar:30}] {bytes} of {total_bytes}") {
         bar.set_style(style);
     }
     bar.set_length(total);
     bar.set_position(done);
-    bar.set_message(format!("reading {who}"));
     if done >= total {
         bar.set_style(ProgressStyle::default_spinner());
         bar.set_message("rendering");
