@@ -2,6 +2,8 @@
 //!
 //! Colours and opacities run from 0 to 1. `EPSILON` of f32 is 1.2e-7, half of which is what one operation rounds.
 
+pub mod golden;
+
 /// Agreement with the float64 renderer: largest mean difference of a channel. A fifth of a code of an 8-bit image, so that
 /// rounded pictures are the same but for a few pixels.
 pub const AGREEMENT_MEAN: f64 = 0.2 / 255.0;
