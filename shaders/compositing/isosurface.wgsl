@@ -34,9 +34,13 @@ fn done(state: State) -> bool {
 }
 
 fn finish(state: State, ray: Ray) -> Result {
-    if !state.found {
+    var last = state;
+    if !last.found {
+        add(&last, ray, last_stretch(ray));
+    }
+    if !last.found {
         return Result(vec4f(0.0), -1.0);
     }
-    let along = refine(ray, state.a, state.b, state.fa, state.fb, params.isovalue);
+    let along = refine(ray, last.a, last.b, last.fa, last.fb, params.isovalue);
     return Result(surface_at(ray, along, params.color), along);
 }

@@ -53,8 +53,11 @@ fn done(state: State) -> bool {
 
 fn finish(state: State, ray: Ray) -> Result {
     var last = state;
-    if last.color.w < frame.termination_opacity && last.medium.w > 0.0 {
-        blend(&last, absorb(last.medium, (ray.steps - last.along) * ray.step_length), last.along);
+    if !done(last) {
+        // Behind the last sample the medium is taken to be that of the sample; clear where every sample was skipped.
+        var s = last_stretch(ray);
+        s.medium = max(last.medium, vec4f(0.0));
+        add(&last, ray, s);
     }
     return Result(last.color, last.first);
 }

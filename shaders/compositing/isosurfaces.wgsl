@@ -68,5 +68,9 @@ fn done(state: State) -> bool {
 }
 
 fn finish(state: State, ray: Ray) -> Result {
-    return Result(state.color, state.first);
+    var last = state;
+    if !done(last) {
+        add(&last, ray, last_stretch(ray));
+    }
+    return Result(last.color, last.first);
 }

@@ -20,18 +20,23 @@ fn world_gradient(p: vec3f, voxel: vec4f) -> vec3f {
 
 /// Shades a medium at `p`. Where the gradient vanishes there is no surface to light, and the unlit medium shows.
 fn lit(medium: vec4f, ray: Ray, p: vec3f, voxel: vec4f) -> vec4f {
+    var surface: Surface;
+    surface.view = ray.view;
+    surface.light = frame.light_direction;
+    surface.light_color = frame.light_color;
+#if shaded_gradient
     let gradient = world_gradient(p, voxel);
     let magnitude = length(gradient);
-    var surface: Surface;
     surface.normal = -gradient / max(magnitude, 1e-20);
     if frame.two_sided > 0.5 && dot(surface.normal, ray.view) < 0.0 {
         surface.normal = -surface.normal;
     }
-    surface.view = ray.view;
-    surface.light = frame.light_direction;
-    surface.light_color = frame.light_color;
     let weight = magnitude / (magnitude + frame.gradient_fade);
     return mix(medium, shade(medium, surface), weight);
+#else
+    surface.normal = ray.view;
+    return shade(medium, surface);
+#endif
 }
 #endif
 #if medium_at
@@ -76,6 +81,19 @@ fn surface_at(ray: Ray, along: f32, color: vec3f) -> vec4f {
 #else
     return vec4f(color, 1.0);
 #endif
+}
+#endif
+#if slot_refinement
+
+/// The stretch from the last sample to the exit point, as a sample there: surfaces are looked for up to the end of the ray.
+/// Both values are read anew, so that it does not matter whether the last sample was skipped.
+fn last_stretch(ray: Ray) -> Sample {
+    var s: Sample;
+    s.previous_along = segment(ray, ray.count - 1u).x;
+    s.previous = value_at(position_along(ray, s.previous_along));
+    s.along = ray.steps;
+    s.value = value_at(position_along(ray, s.along));
+    return s;
 }
 #endif
 #if statistics

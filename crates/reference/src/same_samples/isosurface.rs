@@ -51,12 +51,13 @@ impl Renderer<'_> {
         })
     }
 
-    /// Position of the first crossing, in steps. A ray that enters inside is not cut there: it crosses where it comes out.
+    /// Position of the first crossing between entry, samples and exit, in steps. A ray that enters inside is not cut there: it crosses where it comes out.
     fn crossing(&self, path: &Path, isovalue: f64, refinement: Refinement) -> Option<f64> {
         let at = |position: f64| Point { position, excess: self.value(path, position) - isovalue };
         let mut previous = at(0.0);
-        for sample in path.lattice.samples() {
-            let current = at(sample.position);
+        let samples = path.lattice.samples().map(|sample| sample.position);
+        for position in samples.chain(std::iter::once(path.lattice.length)) {
+            let current = at(position);
             if current.is_inside() != previous.is_inside() {
                 return Some(refine(at, previous, current, refinement));
             }
