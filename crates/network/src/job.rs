@@ -127,18 +127,12 @@ pub struct Mark {
     pub message: String,
 }
 
-impl fmt::Display for Mark {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}:{}: {}", self.source, self.line, self.column, self.message)
-    }
-}
-
 /// Why a run failed. `?` converts any error into it, with its sources; like every such catch-all it is no `Error` itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProcessError {
-    /// What was wrong and what to do.
+    /// What was wrong, where, and what to do; complete without the marks.
     pub message: String,
-    /// Where in shader or other source text, if it is about one.
+    /// The places in shader or other source text that it is about, for editors.
     pub marks: Vec<Mark>,
 }
 
@@ -156,8 +150,7 @@ impl ProcessError {
 
 impl fmt::Display for ProcessError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.message)?;
-        self.marks.iter().try_for_each(|mark| write!(f, "\n  {mark}"))
+        f.write_str(&self.message)
     }
 }
 

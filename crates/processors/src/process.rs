@@ -69,11 +69,6 @@ impl Runner {
         self.context.count_samples = enabled;
     }
 
-    /// The shader that the ray traversal with this id used in its last run.
-    pub fn assembled(&mut self, id: &str) -> Option<&rayloom_wgsl::Assembled> {
-        self.context.state::<crate::ray_traversal::Memory>(id).assembled()
-    }
-
     /// Frees what is left of processors that are gone, and render targets beyond what the next evaluation may want.
     /// To be called after an evaluation or an edit.
     pub fn tidy(&mut self, exists: impl Fn(&str) -> bool) {

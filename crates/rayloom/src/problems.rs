@@ -1,6 +1,6 @@
 //! Turns what an evaluation could not do into one message, the root cause first.
 
-use rayloom_network::{Mark, Network, Outcome, ProcessError, Report};
+use rayloom_network::{Network, Outcome, Report};
 
 use crate::failure::Failure;
 
@@ -10,7 +10,7 @@ pub fn failure(network: &Network, report: &Report) -> Failure {
         .runs
         .iter()
         .filter_map(|run| match &run.outcome {
-            Outcome::Failed(error) => Some(format!("{} failed: {}", named(network, &run.processor), text(error))),
+            Outcome::Failed(error) => Some(format!("{} failed: {error}", named(network, &run.processor))),
             Outcome::Done => None,
         })
         .collect();
@@ -29,15 +29,6 @@ pub fn failure(network: &Network, report: &Report) -> Failure {
         causes.push(format!("so there is no result from {}", waiting.join(", ")));
     }
     Failure::new(causes.join("\n"))
-}
-
-/// What an error says; its places in source text only where the message does not name them itself.
-fn text(error: &ProcessError) -> String {
-    let place = |mark: &Mark| format!("{}:{}", mark.source, mark.line);
-    match error.marks.iter().all(|mark| error.message.contains(&place(mark))) {
-        true => error.message.clone(),
-        false => error.to_string(),
-    }
 }
 
 /// A processor with its type: "`source` (volume_source)".

@@ -236,6 +236,7 @@ impl<'a> Used<'a> {
         set("classified_gradient", classified_gradient && self.output_reads(&["medium", "medium_at"]));
         set("loop_gradient", self.output_reads(&["gradient"]) || (medium && classified_gradient));
         set("shading", shading);
+        set("shaded_gradient", self.slot_reads(Slot::Shading, "gradient"));
         set("light", self.slot_reads(Slot::Shading, "light"));
         set("skipping", self.snippets.contains_key(&Slot::Skipping));
         set("search", medium && shading && all_outputs(&|output| output.emptiness == Some(Emptiness::Transparent)) && !segment_ends);
@@ -251,7 +252,7 @@ impl<'a> Used<'a> {
         set("half_targets", choice.half_targets);
         set(&format!("channel_{}", choice.channel), true);
         set(&format!("channels_{}", choice.channels), true);
-        for (slot, _) in &self.snippets {
+        for slot in self.snippets.keys() {
             set(&format!("slot_{slot}"), true);
         }
         let slots = self.snippets.keys().copied().chain([Slot::Compositing]).collect();

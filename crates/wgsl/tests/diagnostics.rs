@@ -144,6 +144,12 @@ fn two_snippets_may_use_the_same_names() {
 }
 
 #[test]
+fn shading_may_do_without_the_gradient() {
+    let flat = "//! slot: shading\n//! help: Half as bright.\nfn shade(medium: vec4f, surface: Surface) -> vec4f { return vec4f(0.5 * medium.rgb, medium.w); }\n";
+    assert_eq!(problem(Slot::Shading, flat), None);
+}
+
+#[test]
 fn only_what_is_read_is_emitted() {
     let library = Library::built_in().expect("built-in snippets");
     let lines = |choice: &Choice| {

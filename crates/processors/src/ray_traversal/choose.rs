@@ -127,7 +127,7 @@ fn fit_skipping<'a>(
         return Ok(None);
     }
     let Some(question) = Question::of(library, &trial, job.properties, volume, channel)? else { return Ok(None) };
-    if question.map(memory)?.occupied > WORTHWHILE {
+    if question.map(&mut memory.skipping, &mut memory.splines)?.occupied > WORTHWHILE {
         return Ok(None);
     }
     *choice = trial;

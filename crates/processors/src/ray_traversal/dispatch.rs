@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use bytemuck::bytes_of;
-use rayloom_gpu::wgpu::{self, TextureFormat, TextureUsages};
+use rayloom_gpu::wgpu::{self, TextureFormat};
 use rayloom_gpu::{Gpu, GpuError, Texture};
 use rayloom_network::{Job, ProcessError};
 use rayloom_volume::ValueRange;
@@ -12,8 +12,8 @@ use serde_json::{Map, json};
 
 use super::choose::Plan;
 use super::frame::{Frame, reference_length};
-use super::memory::{Memory, VolumeKey};
-use super::{Inputs, OUTPORTS, parameters, skipping, tables};
+use super::memory::Memory;
+use super::{Inputs, OUTPORTS, parameters, tables};
 use crate::{Context, Data};
 
 /// Side of a workgroup; the skeleton says `@workgroup_size(8, 8)`.
@@ -27,10 +27,18 @@ pub(super) struct Pass<'a> {
     pub shader: &'a Validated,
 }
 
+/// What an output is drawn into.
+pub(super) struct Target {
+    pub color: Arc<Texture>,
+    pub depth: Arc<Texture>,
+}
+
+/// The targets of the outputs, `None` for those that nothing uses.
+type Targets = [Option<Target>; OUTPORTS.len()];
+
 /// What a run leaves behind.
 pub(super) struct Drawn {
-    /// Colour and depth of each output in use.
-    pub targets: [Option<(Arc<Texture>, Arc<Texture>)>; 3],
+    pub targets: Targets,
     /// Rays, samples and contributing samples, when they were counted.
     pub counted: Option<Map<String, serde_json::Value>>,
 }
@@ -70,9 +78,9 @@ impl Pass<'_> {
     }
 
     /// Colour and depth textures of the outputs in use.
-    fn targets(&self, context: &mut Context) -> Result<[Option<(Arc<Texture>, Arc<Texture>)>; 3], ProcessError> {
+    fn targets(&self, context: &mut Context) -> Result<Targets, ProcessError> {
         let format = if self.plan.choice.half_targets { TextureFormat::Rgba16Float } else { TextureFormat::Rgba32Float };
-        let mut targets: [Option<(Arc<Texture>, Arc<Texture>)>; 3] = Default::default();
+        let mut targets = Targets::default();
         let used = self.plan.choice.outputs.iter().flatten().count() as u32;
         let most = context.gpu.limits.max_storage_textures_per_shader_stage;
         if 2 * used > most {
@@ -85,7 +93,7 @@ impl Pass<'_> {
             if self.plan.choice.outputs[index].is_some() {
                 let color = context.pool.get(&context.gpu, OUTPORTS[index], self.inputs.view.size, format)?;
                 let depth = context.depth_target("view depth", self.inputs.view.size)?;
-                *target = Some((color, depth));
+                *target = Some(Target { color, depth });
             }
         }
         Ok(targets)
@@ -129,7 +137,7 @@ impl Pass<'_> {
         context: &Context,
         memory: &mut Memory,
         frame: &Frame,
-        targets: &[Option<(Arc<Texture>, Arc<Texture>)>; 3],
+        targets: &Targets,
         counters: Option<&wgpu::Buffer>,
     ) -> Result<Resource, ProcessError> {
         let gpu = &context.gpu;
@@ -142,7 +150,9 @@ impl Pass<'_> {
                 let bytes = parameters::bytes(self.shader, properties, range)?;
                 Resource::Buffer(gpu.buffer("snippet parameters", &bytes, wgpu::BufferUsages::UNIFORM)?)
             }
-            "volume" if self.reads("prefiltered") => Resource::Texture(self.spline(gpu, memory)?),
+            "volume" if self.reads("prefiltered") => {
+                Resource::Texture(memory.splines.texture(gpu, &self.inputs.volume.volume, self.plan.channel)?)
+            }
             "volume" => Resource::View(self.inputs.volume.on_gpu(gpu)?.texture.view.clone()),
             "linear_sampler" => Resource::Sampler(linear_sampler(gpu)),
             "entry_points" => Resource::Texture(self.inputs.entry.color.clone()),
@@ -168,7 +178,7 @@ impl Pass<'_> {
                 Resource::Texture(memory.labels.get((table.clone(), range), || tables::labels(gpu, table, range))?)
             }
             "skip_map" => match &self.plan.skipping {
-                Some(question) => Resource::Texture(question.texture(gpu, memory)?),
+                Some(question) => Resource::Texture(question.texture(gpu, &mut memory.skipping, &mut memory.splines)?),
                 None => return Err(unknown(name)),
             },
             "counters" => Resource::Buffer(counters.cloned().ok_or_else(|| unknown(name))?),
@@ -176,12 +186,12 @@ impl Pass<'_> {
         })
     }
 
-    fn output(&self, name: &str, targets: &[Option<(Arc<Texture>, Arc<Texture>)>; 3]) -> Result<Resource, ProcessError> {
+    fn output(&self, name: &str, targets: &Targets) -> Result<Resource, ProcessError> {
         let found = (0..).zip(targets).find_map(|(index, target)| {
-            let (color, depth) = target.as_ref()?;
+            let target = target.as_ref()?;
             match name.strip_prefix(&format!("out{}_", index + 1))? {
-                "color" => Some(color.clone()),
-                "depth" => Some(depth.clone()),
+                "color" => Some(target.color.clone()),
+                "depth" => Some(target.depth.clone()),
                 _ => None,
             }
         });
@@ -193,21 +203,6 @@ impl Pass<'_> {
         let volume = &self.inputs.volume.volume;
         let rate = self.job.properties.f64("sampling_rate")?;
         Ok(super::frame::mean_spacing(volume) / rate / reference_length(volume, self.job.properties)?)
-    }
-
-    fn spline(&self, gpu: &Gpu, memory: &mut Memory) -> Result<Arc<Texture>, ProcessError> {
-        let volume = &self.inputs.volume.volume;
-        let coefficients = skipping::coefficients(memory, volume, self.plan.channel)?;
-        let key = (VolumeKey(volume.clone()), self.plan.channel);
-        let texture = memory.coefficient_texture.get(key, || {
-            let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
-            let texture = gpu.texture_3d("spline coefficients", volume.dims, TextureFormat::R32Float, usage)?;
-            if let rayloom_volume::Voxels::F32(values) = &coefficients.voxels {
-                gpu.upload(&texture, bytemuck::cast_slice(values))?;
-            }
-            Ok::<_, GpuError>(Arc::new(texture))
-        })?;
-        Ok(texture)
     }
 
     fn dispatch(&self, context: &mut Context, resources: &[(u32, Resource)]) -> Result<(), GpuError> {

@@ -4,10 +4,12 @@ mod choose;
 mod declare;
 mod dispatch;
 mod frame;
+mod memo;
 mod memory;
 mod parameters;
 mod skipping;
 mod snippets;
+mod splines;
 mod tables;
 
 use std::sync::Arc;
@@ -15,12 +17,13 @@ use std::sync::Arc;
 use rayloom_network::{
     Declaration, ImageKind, Job, Outputs, ProcessError, ProcessorType, Properties, PropertyDecl,
 };
-use rayloom_wgsl::Library;
+use rayloom_wgsl::{Assembled, Library};
 
-use crate::process::Process;
+use crate::process::{Process, Runner};
+use memory::Memory;
+
 use crate::{Context, Data, Image, JobData, View, VolumeData};
 
-pub use memory::Memory;
 pub use snippets::{snippet_library, user_folder};
 
 /// Outports, in the order of the shader's outputs.
@@ -55,6 +58,13 @@ impl Process for RayTraversal {
         let result = self.traverse(context, job, &mut memory);
         context.put_state(job.id, memory);
         result
+    }
+}
+
+impl Runner {
+    /// The shader that the ray traversal with this id used in its last run.
+    pub fn assembled(&mut self, id: &str) -> Option<&Assembled> {
+        self.context.state::<Memory>(id).assembled()
     }
 }
 
@@ -128,7 +138,7 @@ impl RayTraversal {
 
         let mut outputs = Outputs::new();
         for (outport, target) in OUTPORTS.iter().zip(drawn.targets) {
-            if let Some((color, depth)) = target {
+            if let Some(dispatch::Target { color, depth }) = target {
                 let image = Image { color, depth: Some(depth), kind: ImageKind::Color, view: Some(inputs.view.clone()) };
                 outputs = outputs.with(*outport, image.into());
             }

@@ -10,8 +10,9 @@ use rayloom_volume::{
 };
 use rayloom_wgsl::{Choice, Emptiness, Kernel, Library, Slot, Visibility};
 
-use super::memory::{BrickKey, MapKey, Memory, VisibilityKey, VolumeKey};
+use super::memo::{Memo, VolumeKey};
 use super::snippets::PLACES;
+use super::splines::Splines;
 use super::tables::{ENTRIES, ENTRIES_2D};
 
 /// Share of visible bricks above which leaping costs more than it saves; measured, see docs/PERFORMANCE.md.
@@ -24,6 +25,29 @@ pub(super) struct SkipMap {
     bytes: Arc<Vec<u8>>,
     /// Share of bricks that may hold something visible.
     pub occupied: f64,
+}
+
+/// Bricks depend on volume, channel, brick size, apron and whether they are those of spline coefficients.
+type BrickKey = (VolumeKey, u32, u32, u32, bool);
+
+/// What makes something visible.
+#[derive(Clone, PartialEq)]
+enum VisibilityKey {
+    Function(TransferFunction),
+    Function2D(TransferFunction2D),
+    Between([f64; 2]),
+    Nothing,
+}
+
+/// The map depends on the bricks, on what is visible, on isovalues, on the kind of map and on the kernel's spread.
+type MapKey = (BrickKey, VisibilityKey, Vec<f64>, bool, f64);
+
+/// The last bricks and maps: a new transfer function leaves the bricks, and the volume, alone.
+#[derive(Default)]
+pub(super) struct SkipMemory {
+    bricks: Memo<BrickKey, Arc<MinMaxBricks>>,
+    map: Memo<MapKey, SkipMap>,
+    texture: Memo<MapKey, Arc<Texture>>,
 }
 
 /// What the map of a choice depends on.
@@ -89,10 +113,10 @@ impl<'a> Question<'a> {
     }
 
     /// The answer, from memory where nothing changed.
-    pub fn map(&self, memory: &mut Memory) -> Result<SkipMap, ProcessError> {
-        let (_, channel, size, apron, splines) = self.key.0;
-        let coefficients = match splines {
-            true => Some(coefficients(memory, self.volume, channel)?),
+    pub fn map(&self, memory: &mut SkipMemory, splines: &mut Splines) -> Result<SkipMap, ProcessError> {
+        let (_, channel, size, apron, of_splines) = self.key.0;
+        let coefficients = match of_splines {
+            true => Some(splines.coefficients(self.volume, channel)?),
             false => None,
         };
         let bricks = memory.bricks.get(self.key.0.clone(), || {
@@ -114,9 +138,14 @@ impl<'a> Question<'a> {
     }
 
     /// The map as a texture, r8uint.
-    pub fn texture(&self, gpu: &Gpu, memory: &mut Memory) -> Result<Arc<Texture>, ProcessError> {
-        let map = self.map(memory)?;
-        memory.map_texture.get(self.key.clone(), || {
+    pub fn texture(
+        &self,
+        gpu: &Gpu,
+        memory: &mut SkipMemory,
+        splines: &mut Splines,
+    ) -> Result<Arc<Texture>, ProcessError> {
+        let map = self.map(memory, splines)?;
+        memory.texture.get(self.key.clone(), || {
             let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
             let texture = gpu.texture_3d("skipping map", map.grid, TextureFormat::R8Uint, usage)?;
             gpu.upload(&texture, &map.bytes)?;
@@ -160,13 +189,4 @@ impl<'a> Question<'a> {
 fn visible_2d(function: &TransferFunction2D, range: ValueRange, min: f64, max: f64) -> bool {
     let (min, max) = table_interval(range, ENTRIES_2D, min, max);
     !function.transparent_between(min, max)
-}
-
-/// The coefficients of the B-spline through a channel, normalised, as a volume of one channel.
-pub(super) fn coefficients(memory: &mut Memory, volume: &Arc<Volume>, channel: u32) -> Result<Arc<Volume>, ProcessError> {
-    memory.coefficients.get((VolumeKey(volume.clone()), channel), || {
-        let voxels = rayloom_volume::Voxels::F32(rayloom_volume::bspline_coefficients(volume, channel));
-        let name = format!("spline of {}", volume.name);
-        Ok(Arc::new(Volume::new(name, volume.dims, 1, voxels, volume.index_to_world)?))
-    })
 }
