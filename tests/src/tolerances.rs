@@ -16,7 +16,10 @@ pub const AGREEMENT_SHARE: f64 = 0.999;
 /// T1, T4: opacity of a medium that the midpoint rule integrates exactly. Rounding of entry and exit points (6e-8 of the box
 /// each), of the table and of up to 1000 composited samples, whose errors mostly cancel.
 pub const OPACITY: f64 = 2e-6;
-/// T1 with opacity 1e-8 a sample: relative error after 1e5 samples. Each addition rounds to 2^-34 at worst while the sum is
+/// Length of a ray that enters and leaves askew, in edges of the box: entry and exit are points of a ray through a scene a few
+/// boxes deep, so each coordinate is rounded a few times by 1.2e-7, and more shows where the ray grazes a face.
+pub const CHORD: f64 = 6e-7;
+/// T1 with opacity 1e-8 a sample: relative error after 6e4 samples. Each addition rounds to 2^-34 at worst while the sum is
 /// near 1e-3, which is 6e-3 of a sample but of either sign.
 pub const FAINT: f64 = 1e-4;
 /// T2: two units in the last place of 1.
@@ -40,3 +43,17 @@ pub const STEP_TABLE: f64 = 1023.0;
 pub const STEP_TABLE_2D: f64 = 255.0;
 /// T8 with pre-integration, segments ending on table entries: rounding in the table and of up to 255 samples.
 pub const STEP_PREINTEGRATED: f64 = 2e-6;
+/// T10: the grid's own error of the opacity, `h^2 / 12` of the integrated Laplacian, on a grid of 144.
+pub const BLOB: f64 = 2e-3;
+/// T12: place of a plane, voxels, with linear weights of 8 bits: half a weight.
+pub const PLANE_FILTERED: f64 = 1.0 / 512.0;
+/// T12 with float weights: values near 1 are rounded by 6e-8 of the range of 26 voxels, positions by 2e-6 voxels.
+pub const PLANE: f64 = 1e-5;
+/// T12: unit normals. Values are rounded by 6e-8 of the range, and a voxel's difference is a thirtieth of it.
+pub const PLANE_NORMAL: f64 = 1e-5;
+/// T13: share of the bound of the grid's error that is allowed; more than all of it for the rounding of depths.
+pub const SPHERE: f64 = 1.02;
+/// T18: a value after the table, rounded a few times.
+pub const PROJECTION: f64 = 1e-6;
+/// T18: orders of second order methods where samples fall irregularly about a maximum.
+pub const SECOND_ORDER_IRREGULAR: std::ops::RangeInclusive<f64> = 1.8..=2.2;
