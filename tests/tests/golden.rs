@@ -29,7 +29,10 @@ fn names(folder: &Path, extension: &str) -> BTreeSet<String> {
     let entries = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let paths = entries.map(|entry| entry.expect("a readable folder").path());
     let stem = |path: &PathBuf| path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-    paths.filter(|path| path.extension().is_some_and(|found| found == extension)).filter_map(|path| stem(&path)).collect()
+    paths
+        .filter(|path| path.extension().is_some_and(|found| found == extension))
+        .filter_map(|path| stem(&path))
+        .collect()
 }
 
 fn networks() -> BTreeSet<String> {
@@ -41,27 +44,41 @@ fn updating() -> bool {
 }
 
 /// What the canvas of a network shows, after checks that hold for every shipped network.
-fn render(name: &str) -> Picture {
+fn render(name: &str) -> Result<Picture, String> {
     let mut bench = Workbench::load(&format!("networks/{name}.json"));
     let network = &bench.network;
-    assert!(!network.name.is_empty() && !network.description.is_empty(), "{name}: give the network a name and a description");
-    for id in ["source", "view", "traversal", "canvas"] {
-        assert!(network.processor(id).is_some(), "{name}: no processor `{id}`; --set relies on these names");
+    if network.name.is_empty() || network.description.is_empty() {
+        return Err(format!("{name}: give the network a name and a description"));
+    }
+    if let Some(id) = ["source", "view", "traversal", "canvas"].iter().find(|&id| network.processor(id).is_none()) {
+        return Err(format!("{name}: no processor `{id}`; `--set` relies on these names"));
     }
     let report = bench.evaluate(&Request { size: Some(SIZE), ..Request::default() });
-    assert!(report.is_complete(), "{name}: failed: {:?}, not ready: {:?}", report.failed, report.not_ready);
+    if !report.is_complete() {
+        return Err(format!("{name}: failed: {:?}, not ready: {:?}", report.failed, report.not_ready));
+    }
     let gpu = &bench.runner.context.gpu;
     let image = |processor: &str, outport: &str| match bench.evaluator.output(processor, outport) {
-        Some(Data::Image(image)) => rayloom_tests::Picture::of(image, gpu),
-        other => panic!("{name}: {processor}.{outport} holds no image but {other:?}"),
+        Some(Data::Image(image)) => Ok(rayloom_tests::Picture::of(image, gpu)),
+        other => Err(format!("{name}: {processor}.{outport} holds no image but {other:?}")),
     };
-    let hit = image("traversal", "image").color.iter().filter(|pixel| pixel[3] > 0.0).count();
-    assert!(hit * 10 > (SIZE[0] * SIZE[1]) as usize, "{name}: the rays met something in {hit} pixels only");
-    let shown = image("canvas", "shown");
-    let opaque = shown.color.iter().all(|pixel| (pixel[3] - 1.0).abs() < 1e-5);
-    assert!(opaque, "{name}: the picture has no background");
+    let (traversed, shown) = (image("traversal", "image")?, image("canvas", "shown")?);
+    check_contents(&traversed.color, &shown.color).map_err(|problem| format!("{name}: {problem}"))?;
     let in_gamut = |pixel: &[f32; 4]| pixel.map(|value| value.clamp(0.0, 1.0));
-    Picture { size: shown.size, pixels: shown.color.iter().map(in_gamut).collect(), depth: None }
+    Ok(Picture { size: shown.size, pixels: shown.color.iter().map(in_gamut).collect(), depth: None })
+}
+
+/// A picture of nothing is no example: rays meet something, and there are many colours on an opaque background.
+fn check_contents(traversed: &[[f32; 4]], shown: &[[f32; 4]]) -> Result<(), String> {
+    let hit = traversed.iter().filter(|pixel| pixel[3] > 0.0).count();
+    if hit * 10 < traversed.len() {
+        return Err(format!("the rays met something in only {hit} of {} pixels", traversed.len()));
+    }
+    if !shown.iter().all(|pixel| (pixel[3] - 1.0).abs() < 1e-5) {
+        return Err("the picture is not opaque; give it a background".into());
+    }
+    let colors: BTreeSet<_> = shown.iter().map(|pixel| pixel.map(|value| (value * 255.0) as u8)).collect();
+    if colors.len() < 64 { Err(format!("a picture of {} colours shows nothing", colors.len())) } else { Ok(()) }
 }
 
 /// What of a network differs from its golden image, if it is too much.
@@ -107,19 +124,20 @@ fn write_evidence(name: &str, picture: &Picture, comparison: &Comparison) -> Pat
     folder
 }
 
+fn update(name: &str, picture: &Picture) {
+    write_png(&golden_folder().join(format!("{name}.png")), picture).unwrap_or_else(|error| panic!("{error}"));
+}
+
 #[test]
 fn every_network_looks_as_it_did() {
-    let mut failures = Vec::new();
-    for name in networks() {
-        let picture = render(&name);
-        let colors: BTreeSet<_> = picture.pixels.iter().map(|pixel| pixel.map(|value| (value * 255.0) as u8)).collect();
-        assert!(colors.len() > 64, "{name}: a picture of {} colours shows nothing", colors.len());
+    let judge = |name: &String| {
+        let picture = render(name)?;
         if updating() {
-            let file = golden_folder().join(format!("{name}.png"));
-            write_png(&file, &picture).unwrap_or_else(|error| panic!("{error}"));
+            update(name, &picture);
         }
-        failures.extend(compare(&name, &picture).err());
-    }
+        compare(name, &picture)
+    };
+    let failures: Vec<String> = networks().iter().filter_map(|name| judge(name).err()).collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 

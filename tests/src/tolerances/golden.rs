@@ -24,12 +24,23 @@ const fn tolerance(network: &'static str, share: f64, reason: &'static str) -> T
 }
 
 /// For every network that is not among the exceptions.
-pub const DEFAULT: Tolerance =
-    tolerance("", 0.0025, "rays that graze a surface meet it or miss it: at most 0.18 % of the pixels when the camera moves");
+pub const DEFAULT: Tolerance = tolerance(
+    "",
+    0.0025,
+    "rays that graze a surface meet it or miss it: at most 0.18 % of the pixels when the camera moves",
+);
 
 /// Networks that need more.
 pub const EXCEPTIONS: &[Tolerance] = &[
-    tolerance("brain", 0.004, "voxels of half a millimetre and a steep transfer function: silhouettes of all gyri, 0.29 %"),
-    tolerance("difference", 0.0065, "shows the small difference of two pictures, and so magnifies its own errors: 0.47 %"),
+    tolerance(
+        "brain",
+        0.004,
+        "voxels of half a millimetre and a steep transfer function: silhouettes of all gyri, 0.29 %",
+    ),
+    tolerance(
+        "difference",
+        0.0065,
+        "shows the small difference of two pictures, and so magnifies its own errors: 0.47 %",
+    ),
     tolerance("first_hit", 0.0085, "the first visible sample jumps by half a voxel, and with it the normal: 0.63 %"),
 ];
