@@ -1,5 +1,7 @@
 //! Pictures as the reference renders them.
 
+use crate::scene::SceneError;
+
 /// View depth of a pixel in which nothing was met, in world units; the value that GPU depth images hold there.
 pub const MISS: f64 = 3.0e38;
 
@@ -14,6 +16,18 @@ pub struct Rectangle {
     pub width: u32,
     /// Number of rows.
     pub height: u32,
+}
+
+impl Rectangle {
+    /// Checks that there is something in this rectangle and that it lies within a picture of `size`.
+    pub(crate) fn check_within(self, size: [u32; 2]) -> Result<(), SceneError> {
+        let fits = |start: u32, count: u32, limit: u32| count > 0 && start < limit && count <= limit - start;
+        if fits(self.x, self.width, size[0]) && fits(self.y, self.height, size[1]) {
+            Ok(())
+        } else {
+            Err(SceneError::Rectangle { found: self, size })
+        }
+    }
 }
 
 /// A picture with depth, row 0 at the top, x fastest.

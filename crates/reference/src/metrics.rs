@@ -144,7 +144,8 @@ fn pixel_errors(found: [f64; 4], expected: [f64; 4]) -> [f64; 5] {
         if e.is_nan() { f64::INFINITY } else { e }
     };
     // Not `max`, which would turn what is not a number into the floor.
-    let log_transmittance = |a: f64| if 1.0 - a < TRANSMITTANCE_FLOOR { TRANSMITTANCE_FLOOR.ln() } else { (-a).ln_1p() };
+    let log_transmittance =
+        |a: f64| if 1.0 - a < TRANSMITTANCE_FLOOR { TRANSMITTANCE_FLOOR.ln() } else { (-a).ln_1p() };
     [
         error(found[0], expected[0]),
         error(found[1], expected[1]),

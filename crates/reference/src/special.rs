@@ -7,20 +7,12 @@ const ERF_SWITCH: f64 = 2.0;
 
 /// The error function `2/√π ∫₀ˣ exp(-t²) dt`, to 1e-14 absolute.
 pub fn erf(x: f64) -> f64 {
-    if x.abs() <= ERF_SWITCH {
-        erf_series(x)
-    } else {
-        (1.0 - erfc_fraction(x.abs())).copysign(x)
-    }
+    if x.abs() <= ERF_SWITCH { erf_series(x) } else { (1.0 - erfc_fraction(x.abs())).copysign(x) }
 }
 
 /// The complementary error function `1 - erf(x)`, to 1e-14 absolute and, for `x > 2`, 1e-14 relative.
 pub fn erfc(x: f64) -> f64 {
-    if x > ERF_SWITCH {
-        erfc_fraction(x)
-    } else {
-        1.0 - erf(x)
-    }
+    if x > ERF_SWITCH { erfc_fraction(x) } else { 1.0 - erf(x) }
 }
 
 /// The imaginary error function `2/√π ∫₀ˣ exp(t²) dt`, to 1e-14 relative; infinite beyond `|x| ≈ 26.6`.

@@ -10,7 +10,7 @@ impl Renderer<'_> {
         let mut result = PixelResult::NOTHING;
         for sample in path.lattice.samples() {
             let texture = path.texture(sample.position);
-            let material = self.scene.classification.evaluate(self.field.at_texture(texture));
+            let material = self.prepared.scene.classification.evaluate(self.prepared.field.at_texture(texture));
             if material.opacity <= 0.0 {
                 continue;
             }
@@ -18,12 +18,12 @@ impl Renderer<'_> {
                 result.depth = path.depth(sample.position);
             }
             let opacity = -(-extinction(material.opacity) * sample.length * path.step).exp_m1();
-            let color = self.lit(material.color, texture, &path.ray);
+            let color = self.prepared.lit(material.color, texture, &path.ray);
             let weight = (1.0 - result.color[3]) * opacity;
             for (sum, c) in result.color.iter_mut().zip([color[0], color[1], color[2], 1.0]) {
                 *sum += weight * c;
             }
-            if self.scene.early_termination.is_some_and(|threshold| result.color[3] >= threshold) {
+            if self.prepared.scene.early_termination.is_some_and(|threshold| result.color[3] >= threshold) {
                 break;
             }
         }

@@ -1,22 +1,8 @@
 //! The first crossing of a value.
 
-use super::{Path, Renderer};
+use super::{Path, Renderer, SurfaceHit};
 use crate::image::PixelResult;
 use crate::scene::Refinement;
-use glam::DVec3;
-
-/// A point of an isosurface.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SurfaceHit {
-    /// Where, in texture coordinates.
-    pub texture: DVec3,
-    /// Where, in world space.
-    pub world: DVec3,
-    /// Unit normal in world space, towards smaller values; zero where the field is flat.
-    pub normal: DVec3,
-    /// View depth in world units.
-    pub depth: f64,
-}
 
 /// A position on a ray, in steps, and how far the value there lies above the isovalue.
 #[derive(Debug, Clone, Copy)]
@@ -34,24 +20,18 @@ impl Point {
 impl Renderer<'_> {
     pub(super) fn isosurface(&self, path: &Path, isovalue: f64, refinement: Refinement) -> PixelResult {
         let Some(position) = self.crossing(path, isovalue, refinement) else { return PixelResult::NOTHING };
-        let color = self.scene.classification.evaluate(isovalue).color;
-        let [r, g, b] = self.lit(color, path.texture(position), &path.ray);
+        let color = self.prepared.scene.classification.evaluate(isovalue).color;
+        let [r, g, b] = self.prepared.lit(color, path.texture(position), &path.ray);
         PixelResult { color: [r, g, b, 1.0], depth: path.depth(position) }
     }
 
     pub(super) fn surface_hit(&self, path: &Path, isovalue: f64, refinement: Refinement) -> Option<SurfaceHit> {
         let position = self.crossing(path, isovalue, refinement)?;
-        let texture = path.texture(position);
-        let gradient = self.scene.gradient.gradient(&self.field, self.field.texture_to_index(texture));
-        Some(SurfaceHit {
-            texture,
-            world: self.texture_to_world.transform_point3(texture),
-            normal: self.normal(gradient),
-            depth: path.depth(position),
-        })
+        Some(self.prepared.surface_at(path.texture(position), path.depth(position)))
     }
 
-    /// Position of the first crossing between entry, samples and exit, in steps. A ray that enters inside is not cut there: it crosses where it comes out.
+    /// Position of the first crossing between entry, samples and exit, in steps. A ray that enters inside is not cut there: it
+    /// crosses where it comes out.
     fn crossing(&self, path: &Path, isovalue: f64, refinement: Refinement) -> Option<f64> {
         let at = |position: f64| Point { position, excess: self.value(path, position) - isovalue };
         let mut previous = at(0.0);

@@ -33,13 +33,8 @@ impl Lattice {
     /// The samples from front to back; their lengths sum to the length of the ray.
     pub fn samples(self) -> impl Iterator<Item = LatticeSample> {
         let whole = self.count - 1;
-        let last = LatticeSample {
-            position: 0.5 * (whole as f64 + self.length),
-            length: self.length - whole as f64,
-        };
-        (0..whole)
-            .map(|i| LatticeSample { position: i as f64 + 0.5, length: 1.0 })
-            .chain(std::iter::once(last))
+        let last = LatticeSample { position: 0.5 * (whole as f64 + self.length), length: self.length - whole as f64 };
+        (0..whole).map(|i| LatticeSample { position: i as f64 + 0.5, length: 1.0 }).chain(std::iter::once(last))
     }
 }
 

@@ -7,16 +7,16 @@ use crate::scene::Method;
 impl Renderer<'_> {
     /// Reduces the samples of a ray to one value and classifies it over one reference length.
     pub(super) fn project(&self, path: &Path) -> PixelResult {
-        let (value, position) = match self.scene.method {
+        let (value, position) = match self.prepared.scene.method {
             Method::Mip => self.extreme(path, |value, best| value > best),
             Method::MinIp => self.extreme(path, |value, best| value < best),
             Method::Sum => {
-                let share = self.integral(path, |value| self.field.range().normalise(value)) * path.step;
-                (self.field.range().denormalise(share), 0.0)
+                let share = self.integral(path, |value| self.prepared.field.range().normalise(value)) * path.step;
+                (self.prepared.field.range().denormalise(share), 0.0)
             }
             _ => (self.integral(path, |value| value) / path.lattice.length, 0.0),
         };
-        let material = self.scene.classification.evaluate(value);
+        let material = self.prepared.scene.classification.evaluate(value);
         let [r, g, b] = material.color.map(|c| c * material.opacity);
         PixelResult { color: [r, g, b, material.opacity], depth: path.depth(position) }
     }

@@ -4,7 +4,7 @@ use crate::scenes::*;
 use glam::{DAffine3, DMat3, DVec3};
 use rayloom_reference::closed_forms::*;
 use rayloom_reference::ray::AxisBox;
-use rayloom_reference::same_samples::{Renderer, render};
+use rayloom_reference::same_samples::render;
 use rayloom_reference::{Camera, Method, Scene};
 use rayloom_volume::{Knot, TransferFunction, Volume};
 
@@ -104,7 +104,9 @@ fn steps_and_spikes_stay_within_their_bounds() {
     spike.knots.push(Knot::split(threshold + width, ([1.0; 3], spike.knots[0].right_side().opacity), ([1.0; 3], 0.0)));
     for samples in [5.0, 16.0, 33.3, 100.0, 1000.0, 10_000.0] {
         let d = 1.0 / samples;
-        let error = |tf: &TransferFunction, exact: f64| (ramp_pixel(&volume, tf.clone(), samples, Method::Dvr)[3] - exact).abs();
+        let error = |tf: &TransferFunction, exact: f64| {
+            (ramp_pixel(&volume, tf.clone(), samples, Method::Dvr)[3] - exact).abs()
+        };
         assert!(error(&step(threshold, tau), step_opacity(tau, threshold, 1.0)) <= 0.5 * tau * d);
         assert!(error(&spike, spike_opacity(tau, width, 1.0)) <= tau * d);
     }
@@ -127,7 +129,9 @@ fn projections_of_a_ramp() {
 
 /// Gaussian blob of σ = 0.1 on `n³` voxels that fill ±0.7.
 fn blob(n: u32) -> Volume {
-    volume([n; 3], filling([n; 3], DVec3::splat(-0.7), DVec3::splat(0.7)), |p| gaussian_blob_maximum(2.0, 0.1, p.length()))
+    volume([n; 3], filling([n; 3], DVec3::splat(-0.7), DVec3::splat(0.7)), |p| {
+        gaussian_blob_maximum(2.0, 0.1, p.length())
+    })
 }
 
 #[test]
@@ -163,7 +167,8 @@ fn homogeneous_ball_converges_with_order_one() {
     let (tau, radius) = (2.0, 0.4);
     for (impact, exact) in [0.0, 0.3].map(|b| (b, ball_opacity(tau, radius, b))) {
         for n in [32, 64, 128] {
-            let volume = volume([n; 3], filling([n; 3], DVec3::splat(-0.5), DVec3::splat(0.5)), |p| radius - p.length());
+            let volume =
+                volume([n; 3], filling([n; 3], DVec3::splat(-0.5), DVec3::splat(0.5)), |p| radius - p.length());
             let mut scene = Scene::new(&volume, step(0.0, tau), along_x(impact, 0.0), [1, 1]);
             scene.rate = 4.0;
             let error = (render(&scene).expect("the scene makes sense").pixel(0, 0)[3] - exact).abs();
@@ -206,7 +211,7 @@ fn early_termination_costs_what_it_may() {
     let camera = Camera::perspective(DVec3::new(2.0, 1.5, 3.0), DVec3::ZERO, 50.0);
     let mut scene = Scene::new(&volume, colorful(), camera, [16, 12]);
     (scene.reference_length, scene.rate) = (0.2, 3.0);
-    let whole = Renderer::new(&scene).expect("the scene makes sense").render();
+    let whole = render(&scene).expect("the scene makes sense");
     for threshold in [0.5, 0.95] {
         let mut early = scene.clone();
         early.early_termination = Some(threshold);

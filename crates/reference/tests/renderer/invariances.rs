@@ -5,7 +5,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use rayloom_reference::ray::AxisBox;
 use rayloom_reference::same_samples::{Renderer, render};
 use rayloom_reference::shading::BlinnPhong;
-use rayloom_reference::{Camera, Comparison, Image, MISS, Rectangle, Scene};
+use rayloom_reference::{Camera, Comparison, Image, MISS, Rectangle, Scene, unattended};
 use rayloom_volume::Volume;
 
 const DIMS: [u32; 3] = [8, 6, 5];
@@ -43,7 +43,8 @@ fn data_and_camera_turned_together() {
     let turns = [DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X), DMat3::from_cols(DVec3::Y, -DVec3::X, DVec3::Z)];
     for turn in turns {
         let original = noisy();
-        let turned_camera = Camera { eye: turn * camera().eye, focus: turn * camera().focus, up: turn * camera().up, ..camera() };
+        let turned_camera =
+            Camera { eye: turn * camera().eye, focus: turn * camera().focus, up: turn * camera().up, ..camera() };
         // Turned by the transformation only.
         let mut turned = original.clone();
         turned.index_to_world = DAffine3::from_mat3(turn) * original.index_to_world;
@@ -76,7 +77,8 @@ fn moved_and_scaled_worlds() {
     for (scale, shift, tolerance) in [(1e-9, 0.0, 1e-10), (1e9, 0.0, 1e-10), (1.0, 1e6, 1e-7)] {
         let place = |p: DVec3| p * scale + shift;
         let mut moved = noisy();
-        moved.index_to_world = DAffine3::from_mat3_translation(DMat3::IDENTITY * scale, DVec3::splat(shift)) * moved.index_to_world;
+        moved.index_to_world =
+            DAffine3::from_mat3_translation(DMat3::IDENTITY * scale, DVec3::splat(shift)) * moved.index_to_world;
         let moved_camera = Camera { eye: place(camera().eye), focus: place(camera().focus), ..camera() };
         let mut scene = shaded(&moved, moved_camera);
         scene.reference_length *= scale;
@@ -135,13 +137,14 @@ fn rectangles_are_parts_of_the_whole() {
     let volume = noisy();
     let scene = shaded(&volume, camera());
     let renderer = Renderer::new(&scene).expect("the scene makes sense");
-    let whole = renderer.render();
-    let part = renderer.render_rectangle(Rectangle { x: 5, y: 7, width: 9, height: 6 }).expect("a part");
+    let render = |part| renderer.render(part, &unattended);
+    let whole = render(None).expect("the scene makes sense");
+    let part = render(Some(Rectangle { x: 5, y: 7, width: 9, height: 6 })).expect("a part");
     for (y, x) in (0..6).flat_map(|y| (0..9).map(move |x| (y, x))) {
         assert_eq!(part.pixel(x, y), whole.pixel(x + 5, y + 7));
     }
-    assert!(renderer.render_rectangle(Rectangle { x: 20, y: 0, width: 5, height: 1 }).is_err());
-    assert!(renderer.render_rectangle(Rectangle { x: 0, y: u32::MAX, width: 1, height: 2 }).is_err());
+    assert!(render(Some(Rectangle { x: 20, y: 0, width: 5, height: 1 })).is_err());
+    assert!(render(Some(Rectangle { x: 0, y: u32::MAX, width: 1, height: 2 })).is_err());
     assert!(whole.color.iter().zip(&whole.depth).all(|(c, &d)| (c[3] == 0.0) == (d == MISS)));
 }
 

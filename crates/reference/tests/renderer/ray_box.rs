@@ -90,7 +90,10 @@ fn homogeneous_boxes_from_everywhere() {
                         let pixel = Renderer::new(&scene).expect("the scene makes sense").pixel(0, 0);
                         let expected = homogeneous_opacity(1.0, chord);
                         let found = pixel.color[3];
-                        assert!((found - expected).abs() < 1e-9, "{dims:?} {size} {toward} {start}: {found} {expected}");
+                        assert!(
+                            (found - expected).abs() < 1e-9,
+                            "{dims:?} {size} {toward} {start}: {found} {expected}"
+                        );
                     };
                     check(camera, chord);
                     // A near plane through the centre leaves the far half.
@@ -98,7 +101,14 @@ fn homogeneous_boxes_from_everywhere() {
                     check(camera, 1.0);
                     // An orthographic camera sees all of it from anywhere.
                     let height = outward.length();
-                    check(Camera { projection: rayloom_reference::Projection::Orthographic { height }, near: None, ..camera }, 2.0);
+                    check(
+                        Camera {
+                            projection: rayloom_reference::Projection::Orthographic { height },
+                            near: None,
+                            ..camera
+                        },
+                        2.0,
+                    );
                 }
             }
         }

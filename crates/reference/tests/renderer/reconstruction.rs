@@ -30,9 +30,12 @@ fn rms(errors: impl Iterator<Item = f64>) -> f64 {
 
 #[test]
 fn filters_have_their_orders() {
-    for (sampling, order) in
-        [(Sampling::Nearest, 1.0), (Sampling::Trilinear, 2.0), (Sampling::CatmullRom, 3.0), (Sampling::BSplinePrefiltered, 4.0)]
-    {
+    for (sampling, order) in [
+        (Sampling::Nearest, 1.0),
+        (Sampling::Trilinear, 2.0),
+        (Sampling::CatmullRom, 3.0),
+        (Sampling::BSplinePrefiltered, 4.0),
+    ] {
         let errors = [17, 33, 65].map(|n| {
             let field = Field::new(&waves(n), 0, sampling);
             // Only the B-spline keeps its order at the edge.

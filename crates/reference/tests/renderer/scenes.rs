@@ -78,5 +78,8 @@ pub fn orders(errors: &[f64]) -> Vec<f64> {
 /// Asserts that successive halvings of the step divide the errors by two to the power of `order`, give or take `slack`.
 pub fn assert_order(errors: &[f64], order: f64, slack: f64) {
     let found = orders(errors);
-    assert!(found.iter().all(|p| (p - order).abs() <= slack), "orders {found:?} of errors {errors:?}, expected {order}");
+    assert!(
+        found.iter().all(|p| (p - order).abs() <= slack),
+        "orders {found:?} of errors {errors:?}, expected {order}"
+    );
 }

@@ -59,7 +59,8 @@ fn spheres_converge_with_order_two() {
         for y in 0..6 {
             for x in 0..8 {
                 let ray = view.ray(x, y);
-                let expected = sphere_hit(ray.origin, ray.direction, DVec3::ZERO, radius).expect("the sphere fills the view");
+                let expected =
+                    sphere_hit(ray.origin, ray.direction, DVec3::ZERO, radius).expect("the sphere fills the view");
                 let hit = renderer.surface(x, y).expect("the sphere fills the view");
                 squares[0] += (hit.depth - expected).powi(2);
                 squares[1] += (hit.normal - sphere_normal(ray.at(expected), DVec3::ZERO)).length_squared();
@@ -109,7 +110,8 @@ fn lighting_of_a_plane_is_the_formula() {
     let close = |a: [f64; 4], b: [f64; 4]| (0..4).all(|i| (a[i] - b[i]).abs() < 1e-12);
     assert!(close(lit(shading), expected));
     // The same light fixed to the camera, whose x axis is +z and whose z axis is -x here.
-    let camera_light = BlinnPhong { light_direction: DVec3::new(4.0, 0.0, 3.0), light_space: LightSpace::Camera, ..shading };
+    let camera_light =
+        BlinnPhong { light_direction: DVec3::new(4.0, 0.0, 3.0), light_space: LightSpace::Camera, ..shading };
     assert!(close(lit(camera_light), expected));
     // The range of two units less a voxel takes seven voxels: a fade of 1/7 lights by half.
     let half = lit(BlinnPhong { gradient_fade: 1.0 / 7.0, ..shading });
