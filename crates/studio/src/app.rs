@@ -1,0 +1,257 @@
+//! The window: menu bar, dockable panels, status line, keyboard.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use egui::{Key, KeyboardShortcut, Modifiers};
+use egui_tiles::{Tree, UiResponse};
+use rayloom_processors::registry;
+
+use crate::display::{Display, gpu_of};
+use crate::engine::Engine;
+use crate::panels::{self, Pane, Panels};
+use crate::session::{Mode, Session, Severity};
+use crate::theme;
+
+const OPEN: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::O);
+const SAVE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::S);
+const SAVE_AS: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::S);
+const UNDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Z);
+const REDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
+const REDO_TOO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Y);
+const SWITCH_MODE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::NONE, Key::F5);
+
+/// What to start with.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// The network to open.
+    pub network: Option<PathBuf>,
+    /// The mode to start in.
+    pub mode: Mode,
+}
+
+/// The application.
+pub struct Studio {
+    /// What the panels share.
+    pub session: Session,
+    panels: Panels,
+    tiles: Tree<Pane>,
+}
+
+impl Studio {
+    /// The application on a window's device.
+    ///
+    /// # Errors
+    /// The window has no device, or it cannot be used.
+    pub fn new(
+        creation: &eframe::CreationContext<'_>,
+        options: &Options,
+    ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
+        let renderer = creation.wgpu_render_state.as_ref().ok_or("the window has no graphics device")?;
+        let gpu = gpu_of(renderer);
+        let context = creation.egui_ctx.clone();
+        let engine = Engine::start(gpu.clone(), move || context.request_repaint())?;
+        let display = Display::new(gpu, renderer.clone());
+        theme::apply(&creation.egui_ctx);
+        let mut session = Session::new(Arc::new(registry()), engine, display);
+        session.mode = options.mode;
+        let mut studio = Self { session, panels: Panels::default(), tiles: panels::default_layout() };
+        if let Some(path) = &options.network {
+            studio.open(path);
+        }
+        Ok(studio)
+    }
+
+    /// Opens a network file and shows all of it.
+    pub fn open(&mut self, path: &Path) {
+        if self.session.open(path) {
+            self.panels = Panels::default();
+        }
+    }
+
+    fn save(&mut self, ask: bool) {
+        let known = self.session.document.path().map(Path::to_owned).filter(|_| !ask);
+        let chosen = known.or_else(|| {
+            rfd::FileDialog::new().add_filter("Rayloom network", &["json"]).set_file_name("network.json").save_file()
+        });
+        if let Some(path) = chosen
+            && self.session.save(&path)
+        {
+            self.session.tell(Severity::Note, format!("saved {}", path.display()));
+        }
+    }
+
+    fn choose_file(&mut self) {
+        if let Some(path) = rfd::FileDialog::new().add_filter("Rayloom network", &["json"]).pick_file() {
+            self.open(&path);
+        }
+    }
+
+    fn shortcuts(&mut self, context: &egui::Context) {
+        let pressed = |shortcut| context.input_mut(|input| input.consume_shortcut(&shortcut));
+        // Those with Shift first: a shortcut also matches when more modifiers are held.
+        if pressed(REDO) || pressed(REDO_TOO) {
+            self.session.document.redo();
+        }
+        if pressed(UNDO) {
+            self.session.document.undo();
+        }
+        if pressed(SAVE_AS) {
+            self.save(true);
+        }
+        if pressed(SAVE) {
+            self.save(false);
+        }
+        if pressed(OPEN) {
+            self.choose_file();
+        }
+        if pressed(SWITCH_MODE) {
+            self.switch_mode();
+        }
+    }
+
+    fn switch_mode(&mut self) {
+        self.session.mode = match self.session.mode {
+            Mode::Development => Mode::Visualization,
+            Mode::Visualization => Mode::Development,
+        };
+    }
+
+    fn menu_bar(&mut self, ui: &mut egui::Ui) {
+        egui::MenuBar::new().ui(ui, |ui| {
+            ui.menu_button("File", |ui| {
+                let item = |ui: &mut egui::Ui, text: &str, shortcut: KeyboardShortcut| {
+                    let shortcut = ui.ctx().format_shortcut(&shortcut);
+                    ui.add(egui::Button::new(text).shortcut_text(shortcut)).clicked()
+                };
+                if item(ui, "Open...", OPEN) {
+                    self.choose_file();
+                }
+                if item(ui, "Save", SAVE) {
+                    self.save(false);
+                }
+                if item(ui, "Save as...", SAVE_AS) {
+                    self.save(true);
+                }
+                ui.separator();
+                if ui.button("Quit").clicked() {
+                    ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
+                }
+            });
+            ui.menu_button("Edit", |ui| {
+                let document = &mut self.session.document;
+                let undo = document.undo_label().map(|label| format!("Undo {label}"));
+                if ui.add_enabled(undo.is_some(), egui::Button::new(undo.as_deref().unwrap_or("Undo"))).clicked() {
+                    document.undo();
+                }
+                let redo = document.redo_label().map(|label| format!("Redo {label}"));
+                if ui.add_enabled(redo.is_some(), egui::Button::new(redo.as_deref().unwrap_or("Redo"))).clicked() {
+                    document.redo();
+                }
+            });
+            ui.menu_button("View", |ui| {
+                if ui.button("Visualization mode (F5)").clicked() {
+                    self.switch_mode();
+                }
+                if ui.button("Default layout").clicked() {
+                    self.tiles = panels::default_layout();
+                }
+                egui::global_theme_preference_buttons(ui);
+            });
+        });
+    }
+
+    fn status_line(&self, ui: &mut egui::Ui) {
+        ui.horizontal(|ui| {
+            let engine = &self.session.engine;
+            let report = &engine.results.report;
+            let failed = report.failed.len();
+            if engine.is_busy() {
+                ui.spinner();
+                if let Some((id, progress)) = engine.progress.iter().next() {
+                    ui.label(format!("{id}: {} %", 100 * progress.done / progress.total.max(1)));
+                }
+            } else if failed > 0 {
+                ui.colored_label(theme::ERROR, format!("{failed} failed"));
+            } else if !report.not_ready.is_empty() {
+                ui.colored_label(theme::WARNING, format!("{} not ready", report.not_ready.len()));
+            } else {
+                ui.label("ready");
+            }
+            ui.separator();
+            ui.label(format!("{:.0} ms", report.elapsed.as_secs_f64() * 1e3));
+            if self.session.interacting {
+                ui.separator();
+                ui.label("half resolution while dragging");
+            }
+            if let Some(message) = self.session.messages.last()
+                && message.when.elapsed().as_secs() < 10
+            {
+                ui.separator();
+                ui.label(message.text.lines().next().unwrap_or_default());
+            }
+        });
+    }
+
+    fn title(&self) -> String {
+        let document = &self.session.document;
+        let name = document.path().and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
+        let mark = if document.is_modified() { "*" } else { "" };
+        format!("{}{mark} - Rayloom", name.unwrap_or_else(|| "unnamed".into()))
+    }
+}
+
+/// Lets the tiles show their panes.
+struct Behavior<'a> {
+    session: &'a mut Session,
+    panels: &'a mut Panels,
+}
+
+impl egui_tiles::Behavior<Pane> for Behavior<'_> {
+    fn tab_title_for_pane(&mut self, pane: &Pane) -> egui::WidgetText {
+        pane.title().into()
+    }
+
+    fn pane_ui(&mut self, ui: &mut egui::Ui, _: egui_tiles::TileId, pane: &mut Pane) -> UiResponse {
+        self.panels.show(pane, ui, self.session);
+        UiResponse::None
+    }
+
+    fn simplification_options(&self) -> egui_tiles::SimplificationOptions {
+        egui_tiles::SimplificationOptions { all_panes_must_have_tabs: true, ..Default::default() }
+    }
+}
+
+impl eframe::App for Studio {
+    fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
+        let context = ui.ctx().clone();
+        self.session.engine.listen();
+        let was_interacting = std::mem::take(&mut self.session.interacting);
+        self.session.watched.clear();
+        self.session.canvas_size = None;
+        self.shortcuts(&context);
+        if self.session.mode == Mode::Development {
+            egui::Panel::top("menu").show(ui, |ui| self.menu_bar(ui));
+            egui::Panel::bottom("status").show(ui, |ui| self.status_line(ui));
+        }
+        egui::CentralPanel::default().frame(egui::Frame::new()).show(ui, |ui| match self.session.mode {
+            Mode::Development => {
+                let mut behavior = Behavior { session: &mut self.session, panels: &mut self.panels };
+                self.tiles.ui(&mut behavior, ui);
+            }
+            Mode::Visualization => self.panels.visualization(ui, &mut self.session),
+        });
+        if was_interacting && !self.session.interacting {
+            context.request_repaint();
+        }
+        if context.input(|input| input.pointer.any_released()) {
+            self.session.document.settle();
+        }
+        let request = self.session.request();
+        let (revision, document) = (self.session.document.revision(), &self.session.document);
+        self.session.engine.order(revision, document.network(), request);
+        self.session.display.end_frame();
+        context.send_viewport_cmd(egui::ViewportCommand::Title(self.title()));
+    }
+}
+

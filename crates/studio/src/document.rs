@@ -1,0 +1,227 @@
+//! The network being edited: its file, its history, and whether it is saved.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use rayloom_network::{LoadError, Network, Registry, SaveError, Warning};
+
+/// Steps that can be undone at most; a step is a snapshot, which shares nothing but is small.
+const HISTORY: usize = 500;
+
+/// A state to go back to, and what was done to leave it.
+struct Step {
+    before: Network,
+    label: String,
+    /// Edits with the same key, one right after the other, are one step: a drag, a text being typed.
+    key: Option<String>,
+}
+
+/// The network being edited. Every change goes through [`Document::edit`], so every change can be undone.
+pub struct Document {
+    network: Network,
+    path: Option<PathBuf>,
+    undo: Vec<Step>,
+    redo: Vec<Step>,
+    /// Text of the file as last saved or loaded.
+    saved: String,
+    /// Grows with every change of the network.
+    revision: u64,
+}
+
+impl Document {
+    /// An empty, unnamed network.
+    pub fn new(registry: Arc<Registry>) -> Self {
+        Self::of(Network::new(registry), None)
+    }
+
+    fn of(network: Network, path: Option<PathBuf>) -> Self {
+        let mut document = Self { network, path, undo: Vec::new(), redo: Vec::new(), saved: String::new(), revision: 1 };
+        document.saved = document.text();
+        document
+    }
+
+    /// Loads a network file; the warnings are about things kept but not understood.
+    ///
+    /// # Errors
+    /// The file cannot be read, or is no network.
+    pub fn load(path: &Path, registry: &Arc<Registry>) -> Result<(Self, Vec<Warning>), LoadError> {
+        let loaded = Network::load(path, registry)?;
+        Ok((Self::of(loaded.network, Some(path.to_owned())), loaded.warnings))
+    }
+
+    /// Saves to a file, which becomes the document's own.
+    ///
+    /// # Errors
+    /// The file cannot be written; nothing is lost.
+    pub fn save(&mut self, path: &Path) -> Result<(), SaveError> {
+        self.network.save(path)?;
+        self.path = Some(path.to_owned());
+        self.saved = self.text();
+        Ok(())
+    }
+
+    /// The network.
+    pub fn network(&self) -> &Network {
+        &self.network
+    }
+
+    /// Its file, once it has one.
+    pub fn path(&self) -> Option<&Path> {
+        self.path.as_deref()
+    }
+
+    /// A number that grows with every change.
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// What would be saved.
+    pub fn text(&self) -> String {
+        self.network.to_text(self.path.as_deref().and_then(Path::parent))
+    }
+
+    /// Whether there is anything that is not saved.
+    pub fn is_modified(&self) -> bool {
+        self.text() != self.saved
+    }
+
+    /// Changes the network. A change that fails, or changes nothing, leaves no trace.
+    ///
+    /// # Errors
+    /// Those of `change`.
+    pub fn edit<T, E>(&mut self, label: &str, change: impl FnOnce(&mut Network) -> Result<T, E>) -> Result<T, E> {
+        self.step(label, None, change)
+    }
+
+    /// Like [`Document::edit`], but merged with the steps just before it that have the same key, until
+    /// [`Document::settle`]: dragging a slider is one step.
+    ///
+    /// # Errors
+    /// Those of `change`.
+    pub fn edit_merged<T, E>(
+        &mut self,
+        label: &str,
+        key: &str,
+        change: impl FnOnce(&mut Network) -> Result<T, E>,
+    ) -> Result<T, E> {
+        self.step(label, Some(key.to_owned()), change)
+    }
+
+    fn step<T, E>(
+        &mut self,
+        label: &str,
+        key: Option<String>,
+        change: impl FnOnce(&mut Network) -> Result<T, E>,
+    ) -> Result<T, E> {
+        let mut after = self.network.clone();
+        let result = change(&mut after)?;
+        if after.to_text(None) == self.network.to_text(None) {
+            return Ok(result);
+        }
+        let before = std::mem::replace(&mut self.network, after);
+        self.revision += 1;
+        self.redo.clear();
+        let merges = key.is_some() && self.undo.last().is_some_and(|last| last.key == key);
+        if !merges {
+            self.undo.push(Step { before, label: label.to_owned(), key });
+            let surplus = self.undo.len().saturating_sub(HISTORY);
+            self.undo.drain(..surplus);
+        }
+        Ok(result)
+    }
+
+    /// Ends merging: the next edit is a step of its own.
+    pub fn settle(&mut self) {
+        if let Some(last) = self.undo.last_mut() {
+            last.key = None;
+        }
+    }
+
+    /// What undo would take back.
+    pub fn undo_label(&self) -> Option<&str> {
+        self.undo.last().map(|step| step.label.as_str())
+    }
+
+    /// What redo would do again.
+    pub fn redo_label(&self) -> Option<&str> {
+        self.redo.last().map(|step| step.label.as_str())
+    }
+
+    /// Takes the last step back.
+    pub fn undo(&mut self) -> bool {
+        Self::travel(&mut self.network, &mut self.undo, &mut self.redo, &mut self.revision)
+    }
+
+    /// Does the last step taken back again.
+    pub fn redo(&mut self) -> bool {
+        Self::travel(&mut self.network, &mut self.redo, &mut self.undo, &mut self.revision)
+    }
+
+    fn travel(network: &mut Network, from: &mut Vec<Step>, to: &mut Vec<Step>, revision: &mut u64) -> bool {
+        let Some(step) = from.pop() else { return false };
+        let left = std::mem::replace(network, step.before);
+        to.push(Step { before: left, label: step.label, key: None });
+        *revision += 1;
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rayloom_processors::registry;
+    use serde_json::json;
+
+    use super::*;
+
+    fn document() -> Document {
+        let mut document = Document::new(Arc::new(registry()));
+        document.edit("add", |network| network.add("ray_traversal", "traversal")).expect("added");
+        document
+    }
+
+    fn set_rate(document: &mut Document, rate: f64) {
+        let set = |network: &mut Network| network.set_from_json("traversal", "sampling_rate", &json!(rate));
+        document.edit_merged("sampling rate", "traversal.sampling_rate", set).expect("set");
+    }
+
+    #[test]
+    fn a_drag_is_one_step() {
+        let mut document = document();
+        let before = document.text();
+        for rate in [1.5, 2.0, 2.5] {
+            set_rate(&mut document, rate);
+        }
+        document.settle();
+        set_rate(&mut document, 4.0);
+        let after = document.text();
+        assert!(document.undo() && document.undo());
+        assert_eq!(document.text(), before);
+        assert!(document.redo() && document.redo() && !document.redo());
+        assert_eq!(document.text(), after);
+    }
+
+    #[test]
+    fn edits_that_fail_or_change_nothing_leave_no_trace() {
+        let mut document = document();
+        let (revision, text) = (document.revision(), document.text());
+        assert!(document.edit("bad", |network| network.add("no such type", "x")).is_err());
+        set_rate(&mut document, 1.0);
+        assert_eq!((document.revision(), document.text()), (revision, text));
+        assert_eq!(document.undo_label(), Some("add"));
+    }
+
+    #[test]
+    fn saving_and_undoing_tell_what_is_modified() {
+        let folder = std::env::temp_dir().join(format!("rayloom-document-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("folder");
+        let mut document = document();
+        assert!(document.is_modified());
+        document.save(&folder.join("network.json")).expect("saved");
+        assert!(!document.is_modified());
+        set_rate(&mut document, 2.0);
+        assert!(document.is_modified());
+        document.undo();
+        assert!(!document.is_modified());
+        std::fs::remove_dir_all(&folder).expect("removed");
+    }
+}

@@ -1,0 +1,168 @@
+//! Evaluation on a thread of its own, so that the window never waits for a picture.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread::JoinHandle;
+
+use rayloom_gpu::{Gpu, GpuError};
+use rayloom_network::{Address, Evaluator, Network, Report, Request, Run};
+use rayloom_processors::{Data, Image, Runner};
+use rayloom_volume::Progress;
+
+/// What to evaluate. Only the newest order counts.
+struct Order {
+    network: Network,
+    request: Request,
+    number: u64,
+}
+
+/// What the thread says.
+enum News {
+    Progress(String, Progress),
+    Results(Box<Results>),
+}
+
+/// What has been computed.
+#[derive(Default)]
+pub struct Results {
+    /// The order that these results belong to.
+    number: u64,
+    /// What ran in the last evaluation, what failed, what is not ready and why.
+    pub report: Report,
+    /// The last run of every processor that ever ran.
+    pub runs: BTreeMap<String, Run>,
+    /// What is on the outports.
+    pub outputs: BTreeMap<Address, Data>,
+    /// What arrives at the canvases.
+    pub canvases: BTreeMap<String, Arc<Image>>,
+}
+
+/// The evaluation thread as the window sees it.
+pub struct Engine {
+    orders: Option<Sender<Order>>,
+    news: Receiver<News>,
+    thread: Option<JoinHandle<()>>,
+    /// Number of the last order.
+    ordered: u64,
+    last: Option<(u64, Request)>,
+    /// The latest results.
+    pub results: Results,
+    /// How far slow processors are.
+    pub progress: BTreeMap<String, Progress>,
+}
+
+impl Engine {
+    /// Starts the thread on a device. `wake` is called from it whenever there is news.
+    ///
+    /// # Errors
+    /// The device cannot be used.
+    pub fn start(gpu: Gpu, wake: impl Fn() + Send + Clone + 'static) -> Result<Self, GpuError> {
+        let mut runner = Runner::new(gpu)?;
+        runner.measure(true);
+        let (orders, inbox) = channel::<Order>();
+        let (outbox, news) = channel();
+        let (progress_outbox, progress_wake) = (outbox.clone(), wake.clone());
+        runner.context.progress = Some(Box::new(move |id, progress| {
+            // The window may be gone; then nobody needs to know.
+            let _ = progress_outbox.send(News::Progress(id.to_owned(), progress));
+            progress_wake();
+        }));
+        let thread = std::thread::spawn(move || work(runner, &inbox, &outbox, &wake));
+        Ok(Self {
+            orders: Some(orders),
+            news,
+            thread: Some(thread),
+            ordered: 0,
+            last: None,
+            results: Results::default(),
+            progress: BTreeMap::new(),
+        })
+    }
+
+    /// Asks for an evaluation unless it is what was asked for last. `revision` tells states of the network apart.
+    pub fn order(&mut self, revision: u64, network: &Network, request: Request) {
+        let same = |(last, wanted): &(u64, Request)| {
+            *last == revision && wanted.size == request.size && wanted.watch == request.watch && wanted.sinks == request.sinks
+        };
+        if self.last.as_ref().is_some_and(same) {
+            return;
+        }
+        self.ordered += 1;
+        let order = Order { network: network.clone(), request: request.clone(), number: self.ordered };
+        self.last = Some((revision, request));
+        if let Some(orders) = &self.orders {
+            // A thread that ended says so by its silence: `is_busy` stays true and the status line shows it.
+            let _ = orders.send(order);
+        }
+    }
+
+    /// Takes in what has been computed since the last call; whether there is anything new.
+    pub fn listen(&mut self) -> bool {
+        let mut heard = false;
+        while let Ok(news) = self.news.try_recv() {
+            heard = true;
+            match news {
+                News::Progress(id, progress) => {
+                    self.progress.insert(id, progress);
+                }
+                News::Results(results) => {
+                    self.progress.clear();
+                    self.results = *results;
+                }
+            }
+        }
+        heard
+    }
+
+    /// Whether something is still to be computed.
+    pub fn is_busy(&self) -> bool {
+        self.results.number < self.ordered
+    }
+}
+
+impl Drop for Engine {
+    fn drop(&mut self) {
+        self.orders = None;
+        if let Some(thread) = self.thread.take() {
+            // A panic of the thread was printed when it happened.
+            let _ = thread.join();
+        }
+    }
+}
+
+fn work(mut runner: Runner, orders: &Receiver<Order>, news: &Sender<News>, wake: &impl Fn()) {
+    let mut evaluator = Evaluator::new();
+    while let Ok(mut order) = orders.recv() {
+        // A burst of edits is one evaluation: of the newest.
+        while let Ok(newer) = orders.try_recv() {
+            order = newer;
+        }
+        let report = evaluator.evaluate(&order.network, &mut runner, &order.request);
+        runner.tidy(|id| order.network.processor(id).is_some());
+        let results = Box::new(collect(&order, report, &evaluator));
+        if news.send(News::Results(results)).is_err() {
+            return;
+        }
+        wake();
+    }
+}
+
+fn collect(order: &Order, report: Report, evaluator: &Evaluator<Runner>) -> Results {
+    let mut results = Results { number: order.number, report, ..Results::default() };
+    for processor in order.network.processors() {
+        let id = processor.id();
+        results.runs.extend(evaluator.last_run(id).map(|run| (id.to_owned(), run.clone())));
+        let Some(declaration) = processor.declaration() else { continue };
+        for outport in &declaration.outports {
+            let data = evaluator.output(id, &outport.id);
+            results.outputs.extend(data.map(|data| ((id, outport.id.as_str()).into(), data.clone())));
+        }
+        if declaration.sink
+            && let Some(Data::Image(image)) = evaluator.inputs(&order.network, id, "image").next()
+        {
+            results.canvases.insert(id.to_owned(), image.clone());
+        }
+    }
+    results
+}

@@ -1,0 +1,45 @@
+//! The studio: the window in which networks are wired in development mode and run in visualization mode.
+//!
+//! It runs the same evaluator and the same networks as the command line. Data flows one way: panels show the
+//! [`session`](Session) and edit its [`Document`]; after every frame the [`Engine`] is asked to evaluate what changed, on a
+//! thread of its own; its results are what the panels show in the next frame.
+
+mod app;
+mod display;
+mod document;
+mod engine;
+mod panels;
+mod session;
+mod theme;
+
+pub use app::{Options, Studio};
+pub use display::{Display, Layer, Look};
+pub use document::Document;
+pub use engine::{Engine, Results};
+pub use panels::Pane;
+pub use session::{Message, Mode, Session, Severity};
+
+use std::sync::Arc;
+
+use rayloom_gpu::{Gpu, Hidden};
+
+/// Opens the window and runs until it is closed.
+///
+/// # Errors
+/// There is no display or no graphics device.
+pub fn run(options: Options) -> Result<(), eframe::Error> {
+    let native = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default().with_inner_size([1280.0, 800.0]).with_min_inner_size([640.0, 400.0]),
+        renderer: eframe::Renderer::Wgpu,
+        wgpu_options: eframe::egui_wgpu::WgpuConfiguration { wgpu_setup: wgpu_setup(), ..Default::default() },
+        ..Default::default()
+    };
+    eframe::run_native("Rayloom", native, Box::new(move |creation| Ok(Box::new(Studio::new(creation, &options)?))))
+}
+
+/// The device that the window draws on: with everything that the processors ask for.
+pub fn wgpu_setup() -> eframe::egui_wgpu::WgpuSetup {
+    let mut setup = eframe::egui_wgpu::WgpuSetupCreateNew::without_display_handle();
+    setup.device_descriptor = Arc::new(|adapter| Gpu::descriptor(adapter, Hidden::default()));
+    eframe::egui_wgpu::WgpuSetup::CreateNew(setup)
+}
