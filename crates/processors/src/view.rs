@@ -3,8 +3,8 @@
 use glam::{DAffine3, DMat4, DVec3, DVec4};
 use rayloom_network::{Camera, ProcessError, Projection};
 
-/// Nearest distance of a perspective ray's start, as a share of the scene's depth. It only keeps the projection regular;
-/// half of it is far below any voxel.
+/// Nearest depth that a perspective projection can hold, as a share of the scene's. Rays do not depend on it: they start at
+/// the eye if that is inside.
 const NEAREST: f64 = 1e-6;
 
 /// A camera, an image size and a volume box seen together.
@@ -59,7 +59,7 @@ impl View {
         let extent = (high - low).max(f64::MIN_POSITIVE);
         let air = 1e-2 * extent;
         let first = match (self.camera.projection, self.camera.near) {
-            (Projection::Perspective { .. }, near) => near.unwrap_or(0.0).max(NEAREST * extent),
+            (Projection::Perspective { .. }, near) => near.unwrap_or(0.0),
             (Projection::Orthographic { .. }, Some(near)) => near,
             (Projection::Orthographic { .. }, None) => f64::NEG_INFINITY,
         };
@@ -114,11 +114,15 @@ impl View {
         // Clip coordinates are homogeneous: a common scale keeps tiny and huge scenes within f32.
         let scale = 1.0 / self.far.abs().max(self.near.abs());
         let row = |axis: DVec3| (axis * scale).extend(-axis.dot(eye) * scale);
-        let range = self.far - self.near;
+        let near = match self.camera.projection {
+            Projection::Perspective { .. } => self.near.max(NEAREST * (self.far - self.near)),
+            Projection::Orthographic { .. } => self.near,
+        };
+        let range = self.far - near;
         let (depth, unit) = (row(forward), DVec4::new(0.0, 0.0, 0.0, scale));
         let rows = match self.camera.projection {
             Projection::Perspective { .. } => {
-                [row(right) / x, row(up) / y, (unit * self.far - depth) * (self.near / range), depth]
+                [row(right) / x, row(up) / y, (unit * self.far - depth) * (near / range), depth]
             }
             Projection::Orthographic { .. } => [row(right) / x, row(up) / y, (unit * self.far - depth) / range, unit],
         };
@@ -174,7 +178,7 @@ mod tests {
     fn an_eye_inside_starts_its_rays_at_the_eye() {
         let inside = Camera { position: [0.5, 0.5, 0.5], focus: [0.5, 1.0, 0.5], ..Camera::default() };
         let view = View::new(&inside, [64, 64], DAffine3::IDENTITY).expect("valid");
-        assert!(view.ray_planes().near[0].distance(DVec3::splat(0.5)) < 1e-5);
+        assert!(view.ray_planes().near[0].distance(DVec3::splat(0.5)) < 1e-15);
     }
 
     #[test]
