@@ -57,3 +57,8 @@ pub const SPHERE: f64 = 1.02;
 pub const PROJECTION: f64 = 1e-6;
 /// T18: orders of second order methods where samples fall irregularly about a maximum.
 pub const SECOND_ORDER_IRREGULAR: std::ops::RangeInclusive<f64> = 1.8..=2.2;
+/// Camera: opacity of a homogeneous box, beside what the rounding of its chord by [`CHORD`] allows.
+pub const VIEW_OPACITY: f64 = 2e-6;
+/// Camera: share of the pixels that the rasteriser may give to the wrong side of the box's outline. It places corners on a
+/// grid of 1/256 pixel, so one pixel in about a hundred of those that an outline passes through.
+pub const OUTLINE: f64 = 1e-3;
