@@ -7,11 +7,11 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use rayloom_network::Request;
+use rayloom_network::{Network, Request};
 use rayloom_processors::{Data, Picture, read_picture, write_png};
 use rayloom_reference::Comparison;
 use rayloom_tests::tolerances::golden::{DEFAULT, EXCEPTIONS, PIXEL, Tolerance};
-use rayloom_tests::{Workbench, root};
+use rayloom_tests::{Workbench, root, types};
 
 /// Width and height of golden images: enough to see what is wrong, few enough bytes to keep.
 const SIZE: [u32; 2] = [160, 160];
@@ -45,7 +45,12 @@ fn updating() -> bool {
 
 /// What the canvas of a network shows, after checks that hold for every shipped network.
 fn render(name: &str) -> Result<Picture, String> {
-    let mut bench = Workbench::load(&format!("networks/{name}.json"));
+    let file = root().join("networks").join(format!("{name}.json"));
+    let loaded = Network::load(&file, &types()).map_err(|error| error.to_string())?;
+    if !loaded.warnings.is_empty() {
+        return Err(format!("{name}: {:?}", loaded.warnings));
+    }
+    let mut bench = Workbench::new(loaded.network);
     let network = &bench.network;
     if network.name.is_empty() || network.description.is_empty() {
         return Err(format!("{name}: give the network a name and a description"));
