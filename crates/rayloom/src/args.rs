@@ -14,16 +14,16 @@ const MAX_SIZE: u32 = 16_384;
 
 /// The command line of Rayloom.
 #[derive(Debug, Parser)]
-#[command(name = "rayloom", version, arg_required_else_help = true)]
-#[command(about = "Renders saved networks of volume raycasting.")]
+#[command(name = "rayloom", version)]
+#[command(about = "Visual dataflow workbench for GPU volume raycasting. Without a command it opens the studio.")]
 #[command(
     after_help = "Exit code: 0 when all is well, 1 when something failed (one message says what, where and what to \
                         do), 2 when the command line cannot be understood."
 )]
 pub struct Cli {
-    /// What to do.
+    /// What to do; without one the studio opens.
     #[command(subcommand)]
-    pub command: Command,
+    pub command: Option<Command>,
 }
 
 /// One command each.
@@ -55,6 +55,23 @@ pub enum Command {
     },
     /// Print the graphics adapter that would be used.
     Adapter,
+    /// Open a network in the studio.
+    Open {
+        /// The network file (JSON).
+        network: PathBuf,
+        /// How to start.
+        #[arg(long, value_enum, default_value_t = StartMode::Development)]
+        mode: StartMode,
+    },
+}
+
+/// How the studio starts.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum StartMode {
+    /// Everything visible and editable.
+    Development,
+    /// Canvases and what the author exposed, nothing else.
+    Visualization,
 }
 
 /// Arguments of `rayloom render`.

@@ -1,4 +1,4 @@
-//! The command line of Rayloom: renders saved networks, checks them, and says what they can be made of.
+//! The command line of Rayloom: renders saved networks, checks them, says what they can be made of, opens the studio.
 
 mod adapter;
 mod args;
@@ -8,6 +8,7 @@ mod failure;
 mod info;
 mod list;
 mod network_file;
+mod open;
 mod problems;
 mod progress;
 mod render;
@@ -27,7 +28,7 @@ fn main() -> ExitCode {
     environment::quieten_drivers();
     // Does not return where the command line cannot be understood: exit code 2.
     let command = Cli::parse().command;
-    match run(&command).and_then(|text| print(&text)) {
+    match run(command.as_ref()).and_then(|text| print(&text)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failure(message)) => {
             eprintln!("error: {message}");
@@ -37,7 +38,8 @@ fn main() -> ExitCode {
 }
 
 /// Does what is asked and returns what belongs on the standard output.
-fn run(command: &Command) -> Result<String, Failure> {
+fn run(command: Option<&Command>) -> Result<String, Failure> {
+    let Some(command) = command else { return open::run(None, args::StartMode::Development) };
     match command {
         Command::Render(args) => render::run(args),
         Command::Check { network } => check::run(network),
@@ -45,6 +47,7 @@ fn run(command: &Command) -> Result<String, Failure> {
         Command::Shader { network, processor, set } => shader::run(network, processor, set),
         Command::Info { volume } => info::run(volume),
         Command::Adapter => adapter::run(),
+        Command::Open { network, mode } => open::run(Some(network), *mode),
     }
 }
 

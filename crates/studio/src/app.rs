@@ -213,6 +213,7 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
     }
 
     fn pane_ui(&mut self, ui: &mut egui::Ui, _: egui_tiles::TileId, pane: &mut Pane) -> UiResponse {
+        ui.painter().rect_filled(ui.max_rect(), 0.0, ui.visuals().panel_fill);
         self.panels.show(pane, ui, self.session);
         UiResponse::None
     }
