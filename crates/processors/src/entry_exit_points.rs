@@ -22,7 +22,11 @@ pub fn declaration() -> Declaration {
         Choice::new("32-bit", "32-bit float", "Exact to a hundred-thousandth of a voxel of 512."),
         Choice::new("16-bit", "16-bit integer", "Off by up to 0.004 voxels of 512."),
         Choice::new("half", "16-bit float", "Off by up to 0.13 voxels of 512: visible."),
-        Choice::new("8-bit", "8-bit integer", "Off by up to a voxel of 512: plainly visible. For comparison with early GPU raycasters."),
+        Choice::new(
+            "8-bit",
+            "8-bit integer",
+            "Off by up to a voxel of 512: plainly visible. For comparison with early GPU raycasters.",
+        ),
     ];
     Declaration::new("entry_exit_points", "Entry/exit points", "Geometry")
         .help(
@@ -127,12 +131,8 @@ struct Pass {
 }
 
 impl Pass {
-    const ENTRY: Pass = Pass {
-        outport: "entry",
-        kind: ImageKind::EntryPoints,
-        keep: wgpu::CompareFunction::Greater,
-        clear_depth: 0.0,
-    };
+    const ENTRY: Pass =
+        Pass { outport: "entry", kind: ImageKind::EntryPoints, keep: wgpu::CompareFunction::Greater, clear_depth: 0.0 };
     const EXIT: Pass =
         Pass { outport: "exit", kind: ImageKind::ExitPoints, keep: wgpu::CompareFunction::Less, clear_depth: 1.0 };
 
@@ -178,7 +178,10 @@ impl Pass {
                     view: &target.view,
                     depth_slice: None,
                     resolve_target: None,
-                    ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
+                    ops: wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                        store: wgpu::StoreOp::Store,
+                    },
                 })],
                 depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                     view: &depth.view,

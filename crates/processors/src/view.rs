@@ -43,7 +43,10 @@ impl View {
     pub fn new(camera: &Camera, size: [u32; 2], texture_to_world: DAffine3) -> Result<Self, ProcessError> {
         camera.validate().map_err(|error| ProcessError::new(error.to_string()))?;
         if size.contains(&0) {
-            return Err(ProcessError::new(format!("an image of {} x {} pixels was asked for; give it pixels", size[0], size[1])));
+            return Err(ProcessError::new(format!(
+                "an image of {} x {} pixels was asked for; give it pixels",
+                size[0], size[1]
+            )));
         }
         let mut view = Self { camera: *camera, size, texture_to_world, near: 0.0, far: 1.0 };
         (view.near, view.far) = view.fitted_planes();
@@ -53,9 +56,12 @@ impl View {
     /// Planes that enclose the box with some air, but start no earlier than the camera allows.
     fn fitted_planes(&self) -> (f64, f64) {
         let depths: Vec<f64> = (0..8)
-            .map(|corner| self.depth(DVec3::new(f64::from(corner & 1), f64::from(corner >> 1 & 1), f64::from(corner >> 2 & 1))))
+            .map(|corner| {
+                self.depth(DVec3::new(f64::from(corner & 1), f64::from(corner >> 1 & 1), f64::from(corner >> 2 & 1)))
+            })
             .collect();
-        let (low, high) = depths.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &z| (low.min(z), high.max(z)));
+        let (low, high) =
+            depths.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &z| (low.min(z), high.max(z)));
         let extent = (high - low).max(f64::MIN_POSITIVE);
         let air = 1e-2 * extent;
         let first = match (self.camera.projection, self.camera.near) {
@@ -141,7 +147,11 @@ mod tests {
     use super::*;
 
     fn boxed() -> DAffine3 {
-        DAffine3::from_scale_rotation_translation(DVec3::new(2.0, -3.0, 5.0), glam::DQuat::from_rotation_z(0.3), DVec3::new(1.0, 2.0, 3.0))
+        DAffine3::from_scale_rotation_translation(
+            DVec3::new(2.0, -3.0, 5.0),
+            glam::DQuat::from_rotation_z(0.3),
+            DVec3::new(1.0, 2.0, 3.0),
+        )
     }
 
     fn camera(projection: Projection) -> Camera {
@@ -167,7 +177,11 @@ mod tests {
 
     #[test]
     fn an_eye_far_away_keeps_the_planes_close_to_the_box() {
-        let far = Camera { position: [0.0, -1e9, 0.0], projection: Projection::Perspective { fov_degrees: 1e-7 }, ..Camera::default() };
+        let far = Camera {
+            position: [0.0, -1e9, 0.0],
+            projection: Projection::Perspective { fov_degrees: 1e-7 },
+            ..Camera::default()
+        };
         let view = View::new(&far, [64, 64], DAffine3::IDENTITY).expect("valid");
         for p in view.ray_planes().near.iter().chain(&view.ray_planes().far) {
             assert!(p.abs().max_element() < 2.0, "{p}");

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use crate::TRAVERSAL;
 use crate::choice::{Choice, Features};
 use crate::declaration::{Declaration, Parameter};
 use crate::diagnostic::{Diagnostic, Origin, SourceMap};
@@ -10,7 +11,6 @@ use crate::lexer::{line_and_column, module_scope_names};
 use crate::library::Library;
 use crate::rename::Renaming;
 use crate::slot::{Slot, contract, signature};
-use crate::TRAVERSAL;
 
 const MAX_INCLUDE_DEPTH: usize = 16;
 
@@ -46,12 +46,27 @@ pub fn assemble(library: &Library, choice: &Choice) -> Result<Assembled, Vec<Dia
     if !problems.is_empty() {
         return Err(problems);
     }
-    let mut writer = Writer { library, features: &features, places: &places, skeleton, done: BTreeSet::new(), open: Vec::new(), text: String::new(), map: SourceMap::default() };
+    let mut writer = Writer {
+        library,
+        features: &features,
+        places: &places,
+        skeleton,
+        done: BTreeSet::new(),
+        open: Vec::new(),
+        text: String::new(),
+        map: SourceMap::default(),
+    };
     writer.file(TRAVERSAL, None).map_err(|problem| vec![problem])?;
     let Writer { text, map, .. } = writer;
     let parameters = places
         .iter()
-        .flat_map(|place| place.declaration.parameters.iter().map(|parameter| (place.field(parameter), place.prefix.clone(), parameter.clone())))
+        .flat_map(|place| {
+            place
+                .declaration
+                .parameters
+                .iter()
+                .map(|parameter| (place.field(parameter), place.prefix.clone(), parameter.clone()))
+        })
         .collect();
     Ok(Assembled { text, map, features, parameters })
 }
@@ -67,8 +82,16 @@ struct Place {
 }
 
 fn places(library: &Library, choice: &Choice, features: &Features) -> Vec<Place> {
-    let slots = choice.snippets.iter().filter(|(slot, _)| features.slots.contains(slot)).map(|(slot, path)| (*slot, None, path));
-    let outputs = choice.outputs.iter().enumerate().filter_map(|(index, path)| Some((Slot::Compositing, Some(index), path.as_ref()?)));
+    let slots = choice
+        .snippets
+        .iter()
+        .filter(|(slot, _)| features.slots.contains(slot))
+        .map(|(slot, path)| (*slot, None, path));
+    let outputs = choice
+        .outputs
+        .iter()
+        .enumerate()
+        .filter_map(|(index, path)| Some((Slot::Compositing, Some(index), path.as_ref()?)));
     slots
         .chain(outputs)
         .filter_map(|(slot, output, path)| {
@@ -96,7 +119,10 @@ impl Place {
         for prototype in contract(skeleton, self.slot) {
             let wanted = &prototype.text;
             let message = if prototype.text.starts_with("struct") {
-                names.iter().all(|(name, _)| *name != prototype.name).then(|| (1, 1, format!("a {} snippet must define `{wanted}`", self.slot)))
+                names
+                    .iter()
+                    .all(|(name, _)| *name != prototype.name)
+                    .then(|| (1, 1, format!("a {} snippet must define `{wanted}`", self.slot)))
             } else {
                 match (signature(&self.text, &prototype.name), signature(wanted, &prototype.name)) {
                     (None, _) => Some((1, 1, format!("a {} snippet must define `{wanted}`", self.slot))),
@@ -151,12 +177,19 @@ struct Line {
 }
 
 fn lines(text: &str, renaming: &Renaming) -> Vec<Line> {
-    renaming.apply(text).into_iter().zip(1..).map(|(line, number)| Line { number, text: line.text, shifts: line.shifts }).collect()
+    renaming
+        .apply(text)
+        .into_iter()
+        .zip(1..)
+        .map(|(line, number)| Line { number, text: line.text, shifts: line.shifts })
+        .collect()
 }
 
 impl Writer<'_> {
     fn file(&mut self, path: &str, from: Option<(&str, u32)>) -> Result<(), Diagnostic> {
-        let at = |message: String| Diagnostic::new(from.map_or(path, |from| from.0), from.map_or(0, |from| from.1), 0, message);
+        let at = |message: String| {
+            Diagnostic::new(from.map_or(path, |from| from.0), from.map_or(0, |from| from.1), 0, message)
+        };
         let Some(source) = self.library.source(path) else {
             return Err(at(format!("the file `{path}` to include does not exist")));
         };
@@ -189,7 +222,10 @@ impl Writer<'_> {
         let mut branches: Vec<(bool, u32)> = Vec::new();
         let mut lines = lines.into_iter();
         while let Some(line) = lines.next() {
-            let fail = |message: String| Diagnostic { excerpt: line.text.clone(), ..Diagnostic::new(file, line.number, 0, message) };
+            let fail = |message: String| Diagnostic {
+                excerpt: line.text.clone(),
+                ..Diagnostic::new(file, line.number, 0, message)
+            };
             let live = branches.iter().all(|(taken, _)| *taken);
             let Some(directive) = line.text.trim_start().strip_prefix('#') else {
                 if live && !line.text.starts_with("//!") {
@@ -200,7 +236,11 @@ impl Writer<'_> {
             let (word, rest) = directive.trim().split_once(char::is_whitespace).unwrap_or((directive.trim(), ""));
             let rest = rest.trim();
             match word {
-                "if" => branches.push((rest.strip_prefix('!').map_or_else(|| self.features.has(rest), |flag| !self.features.has(flag.trim())), line.number)),
+                "if" => branches.push((
+                    rest.strip_prefix('!')
+                        .map_or_else(|| self.features.has(rest), |flag| !self.features.has(flag.trim())),
+                    line.number,
+                )),
                 "else" => match branches.last_mut() {
                     Some((taken, _)) => *taken = !*taken,
                     None => return Err(fail("#else without #if".into())),
@@ -219,9 +259,15 @@ impl Writer<'_> {
                     let path = rest.trim_matches('"');
                     self.file(path, Some((file, line.number)))?;
                 }
-                "snippet" => self.snippets(rest, output).ok_or_else(|| fail(format!("there is no slot `{rest}`")))??,
+                "snippet" => {
+                    self.snippets(rest, output).ok_or_else(|| fail(format!("there is no slot `{rest}`")))??
+                }
                 "parameters" => self.parameters(),
-                _ => return Err(fail(format!("unknown directive `#{word}`; directives are #include, #if, #else, #endif, #each, #end, #snippet and #parameters"))),
+                _ => {
+                    return Err(fail(format!(
+                        "unknown directive `#{word}`; directives are #include, #if, #else, #endif, #each, #end, #snippet and #parameters"
+                    )));
+                }
             }
         }
         match branches.last() {
@@ -240,7 +286,10 @@ impl Writer<'_> {
         for place in self.places.iter().filter(|place| place.output.is_some()) {
             let repeated = block.iter().map(|line| {
                 let binding = FIRST_OUTPUT_BINDING + 2 * place.output.unwrap_or(0);
-                let text = line.text.replace("OUT_COLOR_BINDING", &binding.to_string()).replace("OUT_DEPTH_BINDING", &(binding + 1).to_string());
+                let text = line
+                    .text
+                    .replace("OUT_COLOR_BINDING", &binding.to_string())
+                    .replace("OUT_DEPTH_BINDING", &(binding + 1).to_string());
                 let renamed = Renaming::output(&text, &place.prefix).apply(&text);
                 let text = renamed.into_iter().map(|line| line.text).collect();
                 Line { number: line.number, text, shifts: Vec::new() }
@@ -254,7 +303,12 @@ impl Writer<'_> {
     fn snippets(&mut self, slot: &str, output: Option<usize>) -> Option<Result<(), Diagnostic>> {
         let slot = Slot::from_id(slot)?;
         let places = self.places;
-        Some(places.iter().filter(|place| place.slot == slot && place.output == output).try_for_each(|place| self.snippet(place)))
+        Some(
+            places
+                .iter()
+                .filter(|place| place.slot == slot && place.output == output)
+                .try_for_each(|place| self.snippet(place)),
+        )
     }
 
     /// The uniform struct with the snippets' parameters, or nothing when there are none.
@@ -262,7 +316,13 @@ impl Writer<'_> {
         let fields: Vec<_> = self
             .places
             .iter()
-            .flat_map(|place| place.declaration.parameters.iter().map(|parameter| format!("    {}: {},", place.field(parameter), parameter.ty.wgsl())))
+            .flat_map(|place| {
+                place
+                    .declaration
+                    .parameters
+                    .iter()
+                    .map(|parameter| format!("    {}: {},", place.field(parameter), parameter.ty.wgsl()))
+            })
             .collect();
         if fields.is_empty() {
             return;

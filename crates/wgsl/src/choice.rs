@@ -62,7 +62,8 @@ impl Choice {
     /// Every [`Problem`] found: a snippet that does not exist, a read that nothing provides, a combination that a snippet forbids.
     pub fn check(&self, library: &Library) -> Result<Features, Vec<Problem>> {
         let used = Used::of(self, library).map_err(|problem| vec![problem])?;
-        let problems: Vec<_> = used.missing_gradient().into_iter().chain(used.unskippable()).chain(used.forbidden()).collect();
+        let problems: Vec<_> =
+            used.missing_gradient().into_iter().chain(used.unskippable()).chain(used.forbidden()).collect();
         if problems.is_empty() { Ok(used.features(self)) } else { Err(problems) }
     }
 
@@ -85,14 +86,19 @@ impl<'a> Used<'a> {
     fn of(choice: &'a Choice, library: &'a Library) -> Result<Self, Problem> {
         let find = |slot: Slot, path: &'a Arc<str>| match library.declaration(path) {
             Some(declaration) if declaration.slot == slot => Ok((path, declaration)),
-            Some(declaration) => {
-                Err(Problem { slot, message: format!("`{path}` is a {} snippet and cannot fill the slot {slot}.", declaration.slot) })
-            }
+            Some(declaration) => Err(Problem {
+                slot,
+                message: format!("`{path}` is a {} snippet and cannot fill the slot {slot}.", declaration.slot),
+            }),
             None => Err(Problem { slot, message: format!("there is no {slot} snippet `{path}`.") }),
         };
-        let outputs = choice.outputs.iter().flatten().map(|path| find(Slot::Compositing, path)).collect::<Result<Vec<_>, _>>()?;
+        let outputs =
+            choice.outputs.iter().flatten().map(|path| find(Slot::Compositing, path)).collect::<Result<Vec<_>, _>>()?;
         if outputs.is_empty() {
-            return Err(Problem { slot: Slot::Compositing, message: "none of the outputs is used: connect one.".into() });
+            return Err(Problem {
+                slot: Slot::Compositing,
+                message: "none of the outputs is used: connect one.".into(),
+            });
         }
         let mut used = Used { outputs, snippets: BTreeMap::new(), absent: BTreeSet::new() };
         for (&slot, path) in &choice.snippets {
@@ -136,7 +142,10 @@ impl<'a> Used<'a> {
             if !needed {
                 self.snippets.remove(&slot);
             } else if slot != Slot::Shading && !self.snippets.contains_key(&slot) {
-                return Err(Problem { slot, message: format!("the output needs a {slot} snippet, but none is chosen.") });
+                return Err(Problem {
+                    slot,
+                    message: format!("the output needs a {slot} snippet, but none is chosen."),
+                });
             }
         }
         if !self.gradient_is_read() {
@@ -155,14 +164,18 @@ impl<'a> Used<'a> {
             .map_or("the output".to_owned(), |slot| format!("{slot} `{}`", stem(self.snippets[&slot].0)));
         Some(Problem {
             slot: Slot::Gradient,
-            message: format!("{reader} reads the gradient, but the gradient slot is empty: choose a gradient operator, for example `central`."),
+            message: format!(
+                "{reader} reads the gradient, but the gradient slot is empty: choose a gradient operator, for example `central`."
+            ),
         })
     }
 
     fn unskippable(&self) -> Option<Problem> {
         let (path, _) = self.snippets.get(&Slot::Skipping)?;
         let refuse = |message| Some(Problem { slot: Slot::Skipping, message });
-        if let Some((sampling, _)) = self.snippets.get(&Slot::Sampling).filter(|(_, declaration)| declaration.kernel.is_none()) {
+        if let Some((sampling, _)) =
+            self.snippets.get(&Slot::Sampling).filter(|(_, declaration)| declaration.kernel.is_none())
+        {
             return refuse(format!(
                 "skipping `{}` needs to know how far sampling `{}` reaches: declare it there with a line `//! kernel: APRON SPREAD`, or choose skipping `none`.",
                 stem(path),
@@ -182,7 +195,9 @@ impl<'a> Used<'a> {
                 Some(_) => true,
             };
             let classification = self.snippets.get(&Slot::Classification);
-            if needs_visibility && classification.is_none_or(|(_, declaration)| declaration.visibility == Visibility::Always) {
+            if needs_visibility
+                && classification.is_none_or(|(_, declaration)| declaration.visibility == Visibility::Always)
+            {
                 return refuse(format!(
                     "skipping `{}` cannot know what is empty with this classification, in which any value may be visible: choose skipping `none`.",
                     stem(path)
@@ -221,9 +236,14 @@ impl<'a> Used<'a> {
     }
 
     fn features(&self, choice: &Choice) -> Features {
-        let mut flags: BTreeSet<String> = self.all().flat_map(|(_, _, declaration)| declaration.reads.iter().cloned()).collect();
+        let mut flags: BTreeSet<String> =
+            self.all().flat_map(|(_, _, declaration)| declaration.reads.iter().cloned()).collect();
         let mut set = |flag: &str, on: bool| {
-            if on { flags.insert(flag.to_owned()) } else { flags.remove(flag) };
+            if on {
+                flags.insert(flag.to_owned())
+            } else {
+                flags.remove(flag)
+            };
         };
         let segment_ends = self.slot_reads(Slot::Classification, "previous");
         let shading = self.snippets.contains_key(&Slot::Shading);
@@ -239,7 +259,13 @@ impl<'a> Used<'a> {
         set("shaded_gradient", self.slot_reads(Slot::Shading, "gradient"));
         set("light", self.slot_reads(Slot::Shading, "light"));
         set("skipping", self.snippets.contains_key(&Slot::Skipping));
-        set("search", medium && shading && all_outputs(&|output| output.emptiness == Some(Emptiness::Transparent)) && !segment_ends);
+        set(
+            "search",
+            medium
+                && shading
+                && all_outputs(&|output| output.emptiness == Some(Emptiness::Transparent))
+                && !segment_ends,
+        );
         set(
             "stop",
             all_outputs(&|output| match output.termination {
@@ -263,7 +289,13 @@ impl<'a> Used<'a> {
 /// Every legal choice with one output, once for each distinct text, for a one-channel volume with early termination on.
 /// Used to validate all of them without a GPU and to list them.
 pub fn legal_choices(library: &Library) -> BTreeSet<Choice> {
-    let ids = |slot| library.snippets(slot).filter(|(path, _)| !path.starts_with("user/")).map(|(path, _)| path.clone()).collect::<Vec<_>>();
+    let ids = |slot| {
+        library
+            .snippets(slot)
+            .filter(|(path, _)| !path.starts_with("user/"))
+            .map(|(path, _)| path.clone())
+            .collect::<Vec<_>>()
+    };
     let mut found = BTreeSet::new();
     let mut partial = vec![Choice {
         snippets: BTreeMap::new(),
@@ -279,15 +311,18 @@ pub fn legal_choices(library: &Library) -> BTreeSet<Choice> {
         partial = partial
             .into_iter()
             .flat_map(|choice| {
-                options.iter().map(move |path| {
-                    let mut choice = choice.clone();
-                    if slot == Slot::Compositing {
-                        choice.outputs[0] = Some(path.clone());
-                    } else {
-                        choice.snippets.insert(slot, path.clone());
-                    }
-                    choice
-                }).collect::<Vec<_>>()
+                options
+                    .iter()
+                    .map(move |path| {
+                        let mut choice = choice.clone();
+                        if slot == Slot::Compositing {
+                            choice.outputs[0] = Some(path.clone());
+                        } else {
+                            choice.snippets.insert(slot, path.clone());
+                        }
+                        choice
+                    })
+                    .collect::<Vec<_>>()
             })
             .collect();
     }

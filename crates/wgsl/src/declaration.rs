@@ -169,10 +169,17 @@ pub struct Declaration {
 pub fn parse_declaration(file: &str, text: &str) -> Result<Declaration, Diagnostic> {
     let mut parser = Parser::default();
     for (index, line) in text.lines().map_while(|line| line.strip_prefix("//!")).enumerate() {
-        parser.line(line.trim()).map_err(|message| Diagnostic::new(file, index as u32 + 1, 0, message).with_excerpt(text))?;
+        parser
+            .line(line.trim())
+            .map_err(|message| Diagnostic::new(file, index as u32 + 1, 0, message).with_excerpt(text))?;
     }
     let slot = parser.slot.ok_or_else(|| {
-        Diagnostic::new(file, 1, 0, format!("a snippet starts with a line such as `//! slot: gradient`; slots are {}", slot_list()))
+        Diagnostic::new(
+            file,
+            1,
+            0,
+            format!("a snippet starts with a line such as `//! slot: gradient`; slots are {}", slot_list()),
+        )
     })?;
     Ok(Declaration {
         slot,
@@ -215,7 +222,12 @@ impl Parser {
         let (key, value) = line.split_once(':').map_or((line, ""), |(key, value)| (key.trim(), value.trim()));
         match key {
             "" => {}
-            "slot" => self.slot = Some(Slot::from_id(value).ok_or_else(|| format!("there is no slot `{value}`; slots are {}", slot_list()))?),
+            "slot" => {
+                self.slot = Some(
+                    Slot::from_id(value)
+                        .ok_or_else(|| format!("there is no slot `{value}`; slots are {}", slot_list()))?,
+                )
+            }
             "label" => self.label = value.to_owned(),
             "help" => {
                 self.help += if self.help.is_empty() { "" } else { " " };
@@ -257,7 +269,10 @@ fn known_read(word: &str) -> Result<String, String> {
     if READS.iter().any(|(known, _)| *known == word) {
         Ok(word.to_owned())
     } else {
-        Err(format!("nothing called `{word}` can be read; a snippet reads {}", READS.map(|(known, _)| known).join(", ")))
+        Err(format!(
+            "nothing called `{word}` can be read; a snippet reads {}",
+            READS.map(|(known, _)| known).join(", ")
+        ))
     }
 }
 
@@ -286,7 +301,10 @@ fn visibility(value: &str) -> Visibility {
 
 fn emptiness(value: &str) -> Result<Emptiness, String> {
     let (transparent, crossing) = (value.contains("transparent"), value.contains("no_crossing"));
-    let names = words(value).filter(|word| !matches!(*word, "transparent" | "no_crossing" | "and")).map(str::to_owned).collect();
+    let names = words(value)
+        .filter(|word| !matches!(*word, "transparent" | "no_crossing" | "and"))
+        .map(str::to_owned)
+        .collect();
     match (transparent, crossing) {
         (true, false) => Ok(Emptiness::Transparent),
         (false, true) => Ok(Emptiness::NoCrossing(names)),
@@ -335,7 +353,10 @@ fn parameter(text: &str) -> Result<Parameter, String> {
         None => (rest, vec![0.0, 1.0]),
     };
     let name = name.trim();
-    if name.is_empty() || !name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') || name.starts_with(|c: char| c.is_ascii_digit()) {
+    if name.is_empty()
+        || !name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+        || name.starts_with(|c: char| c.is_ascii_digit())
+    {
         return Err(format!("`{name}` cannot be the name of a parameter"));
     }
     let default = numbers(default)?;
@@ -347,7 +368,14 @@ fn parameter(text: &str) -> Result<Parameter, String> {
     if min > max || default.iter().any(|value| !(min..=max).contains(value)) {
         return Err(format!("the default of `{name}` is outside its range [{min}, {max}]"));
     }
-    Ok(Parameter { name: name.to_owned(), ty, default, range: [min, max], unit: unit.to_owned(), help: help.to_owned() })
+    Ok(Parameter {
+        name: name.to_owned(),
+        ty,
+        default,
+        range: [min, max],
+        unit: unit.to_owned(),
+        help: help.to_owned(),
+    })
 }
 
 fn numbers(text: &str) -> Result<Vec<f64>, String> {

@@ -34,7 +34,10 @@ mod validate;
 
 pub use assemble::{Assembled, assemble};
 pub use choice::{Choice, Features, MAX_OUTPUTS, Problem, legal_choices};
-pub use declaration::{Declaration, Emptiness, Forbidden, Kernel, Parameter, ParameterType, READS, Termination, Visibility, parse_declaration};
+pub use declaration::{
+    Declaration, Emptiness, Forbidden, Kernel, Parameter, ParameterType, READS, Termination, Visibility,
+    parse_declaration,
+};
 pub use diagnostic::{Diagnostic, Origin, SourceMap};
 pub use interface::{Field, Interface, ParameterLayout};
 pub use library::{Library, Source, SourceKind};

@@ -59,15 +59,23 @@ impl Library {
         let name = folder.display().to_string();
         let entries = match std::fs::read_dir(folder) {
             Ok(entries) => entries,
-            Err(error) => return vec![Diagnostic::new(&name, 0, 0, format!("the snippet folder cannot be read: {error}"))],
+            Err(error) => {
+                return vec![Diagnostic::new(&name, 0, 0, format!("the snippet folder cannot be read: {error}"))];
+            }
         };
-        let mut paths: Vec<_> = entries.flatten().map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|e| e == "wgsl")).collect();
+        let mut paths: Vec<_> = entries
+            .flatten()
+            .map(|entry| entry.path())
+            .filter(|path| path.extension().is_some_and(|e| e == "wgsl"))
+            .collect();
         paths.sort();
         let mut problems = Vec::new();
         for path in paths {
             let file = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
             let added = std::fs::read_to_string(&path)
-                .map_err(|error| Diagnostic::new(&path.display().to_string(), 0, 0, format!("the snippet cannot be read: {error}")))
+                .map_err(|error| {
+                    Diagnostic::new(&path.display().to_string(), 0, 0, format!("the snippet cannot be read: {error}"))
+                })
                 .and_then(|text| self.add_user(&file, &text));
             problems.extend(added.err());
         }
@@ -82,7 +90,11 @@ impl Library {
         let path = format!("user/{file}");
         let declaration = parse_declaration(&path, text)?;
         if let Some(known) = self.path(declaration.slot, stem(file)).filter(|known| **known != *path) {
-            let message = format!("`{known}` is already the {} snippet `{}`; give this file another name", declaration.slot, stem(file));
+            let message = format!(
+                "`{known}` is already the {} snippet `{}`; give this file another name",
+                declaration.slot,
+                stem(file)
+            );
             return Err(Diagnostic::new(&path, 1, 0, message));
         }
         self.insert(&path, text, SourceKind::User)

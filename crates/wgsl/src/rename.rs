@@ -23,7 +23,10 @@ pub(crate) struct Renamed {
 impl Renaming {
     /// Private names of `text` get `prefix_`; `keep` lists the names that the skeleton calls as they are.
     pub fn scoped(text: &str, prefix: &str, keep: &[String], parameters: &[String]) -> Self {
-        let private = module_scope_names(text).into_iter().map(|(name, _)| name).filter(|name| !keep.iter().any(|kept| kept == name));
+        let private = module_scope_names(text)
+            .into_iter()
+            .map(|(name, _)| name)
+            .filter(|name| !keep.iter().any(|kept| kept == name));
         Self {
             names: private.map(|name| (name.to_owned(), format!("{prefix}_{name}"))).collect(),
             parameters: parameters.iter().map(|name| (name.clone(), format!("{prefix}_{name}"))).collect(),
@@ -33,7 +36,10 @@ impl Renaming {
     /// Identifiers that start with `OUT_` belong to one output.
     pub fn output(text: &str, prefix: &str) -> Self {
         let names = tokens(text).into_iter().filter_map(|token| Some((token.text, token.text.strip_prefix("OUT_")?)));
-        Self { names: names.map(|(name, rest)| (name.to_owned(), format!("{prefix}_{rest}"))).collect(), ..Self::default() }
+        Self {
+            names: names.map(|(name, rest)| (name.to_owned(), format!("{prefix}_{rest}"))).collect(),
+            ..Self::default()
+        }
     }
 
     /// Renames a whole text and returns its lines.
@@ -119,6 +125,9 @@ mod tests {
 
     #[test]
     fn contract_names_stay() {
-        assert_eq!(scoped("fn shade() { soft(); }\nfn soft() {}", &["shade"], &[]), "fn shade() { out1_soft(); }\nfn out1_soft() {}");
+        assert_eq!(
+            scoped("fn shade() { soft(); }\nfn soft() {}", &["shade"], &[]),
+            "fn shade() { out1_soft(); }\nfn out1_soft() {}"
+        );
     }
 }

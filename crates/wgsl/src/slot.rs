@@ -25,8 +25,15 @@ pub enum Slot {
 
 impl Slot {
     /// Every slot, in the order in which the loop meets them.
-    pub const ALL: [Slot; 7] =
-        [Slot::Skipping, Slot::Sampling, Slot::Gradient, Slot::Classification, Slot::Shading, Slot::Refinement, Slot::Compositing];
+    pub const ALL: [Slot; 7] = [
+        Slot::Skipping,
+        Slot::Sampling,
+        Slot::Gradient,
+        Slot::Classification,
+        Slot::Shading,
+        Slot::Refinement,
+        Slot::Compositing,
+    ];
 
     /// Stable id, also the folder of the slot's built-in snippets.
     pub fn id(self) -> &'static str {
@@ -97,7 +104,8 @@ pub(crate) fn signature(text: &str, name: &str) -> Option<(String, usize)> {
 fn normalise(header: &[Token<'_>]) -> String {
     let mut out = String::new();
     for (index, token) in header.iter().enumerate() {
-        let names_a_parameter = token.kind == TokenKind::Identifier && header.get(index + 1).is_some_and(|next| next.text == ":");
+        let names_a_parameter =
+            token.kind == TokenKind::Identifier && header.get(index + 1).is_some_and(|next| next.text == ":");
         if names_a_parameter || token.text == ":" {
             continue;
         }

@@ -28,7 +28,11 @@ pub fn validate(library: &Library, assembled: Assembled) -> Result<Validated, Bo
         if !notes.is_empty() {
             message += &format!(" ({})", notes.join("; "));
         }
-        let location = error.labels().next().map(|(span, _)| span.location(&assembled.text)).or_else(|| error.location(&assembled.text));
+        let location = error
+            .labels()
+            .next()
+            .map(|(span, _)| span.location(&assembled.text))
+            .or_else(|| error.location(&assembled.text));
         Box::new(locate(library, &assembled, location, message))
     })?;
     let info = Validator::new(ValidationFlags::all(), Capabilities::default()).validate(&module).map_err(|error| {
@@ -50,7 +54,12 @@ fn causes(error: &dyn std::error::Error) -> String {
     message
 }
 
-fn locate(library: &Library, assembled: &Assembled, location: Option<naga::SourceLocation>, message: String) -> Diagnostic {
+fn locate(
+    library: &Library,
+    assembled: &Assembled,
+    location: Option<naga::SourceLocation>,
+    message: String,
+) -> Diagnostic {
     let origin = location.and_then(|location| Some((location, assembled.map.origin(location.line_number)?)));
     match origin {
         Some((location, origin)) => {

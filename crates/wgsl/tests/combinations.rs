@@ -17,7 +17,9 @@ fn validate_all(library: &Library, choices: &[Choice]) -> Vec<String> {
                         Ok(assembled) => validate(library, assembled).err().map(|problem| problem.to_string()),
                         Err(problems) => problems.first().map(|problem| problem.to_string()),
                     };
-                    part.iter().filter_map(|choice| check(choice).map(|problem| format!("{choice:?}\n{problem}"))).collect::<Vec<_>>()
+                    part.iter()
+                        .filter_map(|choice| check(choice).map(|problem| format!("{choice:?}\n{problem}")))
+                        .collect::<Vec<_>>()
                 })
             })
             .collect();
@@ -31,7 +33,13 @@ fn every_legal_combination_is_valid() {
     let choices: Vec<_> = legal_choices(&library).into_iter().collect();
     let problems = validate_all(&library, &choices);
     println!("validated {} combinations of one output", choices.len());
-    assert!(problems.is_empty(), "{} of {} combinations fail; the first:\n{}", problems.len(), choices.len(), problems[0]);
+    assert!(
+        problems.is_empty(),
+        "{} of {} combinations fail; the first:\n{}",
+        problems.len(),
+        choices.len(),
+        problems[0]
+    );
     assert!(choices.len() > 1000, "only {} combinations were found", choices.len());
 }
 
@@ -44,16 +52,22 @@ fn every_set_of_outputs_is_valid_with_every_switch() {
     for (index, first) in outputs.iter().enumerate() {
         for second in outputs.iter().chain([&None]) {
             let third = &outputs[(index + 1) % outputs.len()];
-            for (classification, gradient, skipping) in
-                [("transfer_function", "central", "distance"), ("transfer_function_2d", "sobel", "none"), ("preintegrated_full", "precomputed", "occupancy"), ("voxel_color", "forward", "none")]
-            {
+            for (classification, gradient, skipping) in [
+                ("transfer_function", "central", "distance"),
+                ("transfer_function_2d", "sobel", "none"),
+                ("preintegrated_full", "precomputed", "occupancy"),
+                ("voxel_color", "forward", "none"),
+            ] {
                 for switches in 0..4u32 {
                     choices.push(Choice {
                         snippets: BTreeMap::from([
                             (Slot::Sampling, path(Slot::Sampling, "trilinear")),
                             (Slot::Gradient, path(Slot::Gradient, gradient)),
                             (Slot::Classification, path(Slot::Classification, classification)),
-                            (Slot::Shading, path(Slot::Shading, if switches & 1 == 0 { "none" } else { "blinn_phong" })),
+                            (
+                                Slot::Shading,
+                                path(Slot::Shading, if switches & 1 == 0 { "none" } else { "blinn_phong" }),
+                            ),
                             (Slot::Refinement, path(Slot::Refinement, "secant")),
                             (Slot::Skipping, path(Slot::Skipping, skipping)),
                         ]),
@@ -71,6 +85,12 @@ fn every_set_of_outputs_is_valid_with_every_switch() {
     let legal: Vec<_> = choices.into_iter().filter(|choice| choice.check(&library).is_ok()).collect();
     let problems = validate_all(&library, &legal);
     println!("validated {} combinations of several outputs", legal.len());
-    assert!(problems.is_empty(), "{} of {} combinations fail; the first:\n{}", problems.len(), legal.len(), problems[0]);
+    assert!(
+        problems.is_empty(),
+        "{} of {} combinations fail; the first:\n{}",
+        problems.len(),
+        legal.len(),
+        problems[0]
+    );
     assert!(legal.len() > 200, "only {} combinations were found", legal.len());
 }

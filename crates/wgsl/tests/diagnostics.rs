@@ -135,7 +135,8 @@ fn combinations_that_make_no_sense_are_refused_with_the_reason() {
 fn two_snippets_may_use_the_same_names() {
     let library = Library::built_in().expect("built-in snippets");
     let helper = "fn soft(x: f32) -> f32 { return x; }\n";
-    let shading = text(&library, "shading/diffuse.wgsl").replace("max(dot(surface.normal, surface.light), 0.0)", "soft(dot(surface.normal, surface.light))");
+    let shading = text(&library, "shading/diffuse.wgsl")
+        .replace("max(dot(surface.normal, surface.light), 0.0)", "soft(dot(surface.normal, surface.light))");
     assert_eq!(problem(Slot::Shading, &(shading + helper)), None);
     let mut choice = choice(&library, &[], "mip");
     choice.outputs = [choice.outputs[0].clone(), choice.outputs[0].clone(), choice.outputs[0].clone()];
@@ -160,7 +161,9 @@ fn only_what_is_read_is_emitted() {
         text
     };
     let unshaded = lines(&choice(&library, &[(Slot::Shading, "none")], "dvr"));
-    for absent in ["fn gradient_at", "fn lit", "fn refine", "fn skip_empty", "preintegrated_table", "label_table", "out2_"] {
+    for absent in
+        ["fn gradient_at", "fn lit", "fn refine", "fn skip_empty", "preintegrated_table", "label_table", "out2_"]
+    {
         assert!(!unshaded.contains(absent), "{absent}");
     }
     assert!(lines(&choice(&library, &[], "dvr")).contains("fn gradient_at"));

@@ -93,7 +93,9 @@ fn fit_sampling(
     choice: &mut Choice,
     notes: &mut Vec<String>,
 ) -> Result<(), ProcessError> {
-    let Some(declaration) = choice.snippets.get(&Slot::Sampling).and_then(|path| library.declaration(path)) else { return Ok(()) };
+    let Some(declaration) = choice.snippets.get(&Slot::Sampling).and_then(|path| library.declaration(path)) else {
+        return Ok(());
+    };
     if declaration.reads.contains("prefiltered") {
         (choice.channel, choice.channels) = (0, 1);
     } else if declaration.reads.contains("filtering") && !inputs.volume.on_gpu(&context.gpu)?.filterable {
@@ -117,7 +119,8 @@ fn fit_skipping<'a>(
     if choice.snippets.contains_key(&Slot::Skipping) {
         // `none` asks nothing; an illegal choice is refused by the check that follows.
         let question = Question::of(library, choice, job.properties, volume, channel)?;
-        let absent = choice.snippets.get(&Slot::Skipping).and_then(|path| library.declaration(path)).is_some_and(|d| d.absent);
+        let absent =
+            choice.snippets.get(&Slot::Skipping).and_then(|path| library.declaration(path)).is_some_and(|d| d.absent);
         return Ok(question.filter(|_| !absent));
     }
     let Some(path) = library.path(Slot::Skipping, "distance") else { return Ok(None) };

@@ -20,7 +20,8 @@ pub(super) fn declaration(library: &Library) -> Declaration {
         )
         .uses_render_size();
     let declaration = ports(declaration);
-    let declaration = PLACES.iter().fold(declaration, |declaration, place| declaration.property(snippet(library, place)));
+    let declaration =
+        PLACES.iter().fold(declaration, |declaration, place| declaration.property(snippet(library, place)));
     let declaration = appearance(sampling(declaration));
     PLACES.iter().fold(declaration, |declaration, place| {
         declaration.property(

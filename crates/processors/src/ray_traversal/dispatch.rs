@@ -70,7 +70,9 @@ impl Pass<'_> {
         let bindings = &self.shader.interface.bindings;
         let resources = bindings
             .iter()
-            .map(|field| Ok((field.binding, self.resource(&field.name, context, memory, &frame, &targets, counters.as_ref())?)))
+            .map(|field| {
+                Ok((field.binding, self.resource(&field.name, context, memory, &frame, &targets, counters.as_ref())?))
+            })
             .collect::<Result<Vec<_>, ProcessError>>()?;
         self.dispatch(context, &resources)?;
         let counted = counters.map(|counters| counts(&context.gpu, &counters)).transpose()?;
@@ -79,7 +81,8 @@ impl Pass<'_> {
 
     /// Colour and depth textures of the outputs in use.
     fn targets(&self, context: &mut Context) -> Result<Targets, ProcessError> {
-        let format = if self.plan.choice.half_targets { TextureFormat::Rgba16Float } else { TextureFormat::Rgba32Float };
+        let format =
+            if self.plan.choice.half_targets { TextureFormat::Rgba16Float } else { TextureFormat::Rgba32Float };
         let mut targets = Targets::default();
         let used = self.plan.choice.outputs.iter().flatten().count() as u32;
         let most = context.gpu.limits.max_storage_textures_per_shader_stage;
@@ -162,12 +165,16 @@ impl Pass<'_> {
             }
             "transfer_table_2d" => {
                 let function = properties.transfer_function_2d("transfer_function_2d")?;
-                Resource::Texture(memory.table_2d.get((function.clone(), range), || tables::table_2d(gpu, function, range))?)
+                Resource::Texture(
+                    memory.table_2d.get((function.clone(), range), || tables::table_2d(gpu, function, range))?,
+                )
             }
             "preintegrated_table" => {
                 let length = self.reads("preintegration_full").then(|| self.segment_length()).transpose()?;
                 let key = (function.clone(), range, length);
-                Resource::Texture(memory.preintegrated.get(key, || tables::preintegrated(gpu, function, range, length))?)
+                Resource::Texture(
+                    memory.preintegrated.get(key, || tables::preintegrated(gpu, function, range, length))?,
+                )
             }
             "label_volume" => {
                 let labels = self.inputs.labels.unwrap_or(self.inputs.volume);
@@ -178,7 +185,9 @@ impl Pass<'_> {
                 Resource::Texture(memory.labels.get((table.clone(), range), || tables::labels(gpu, table, range))?)
             }
             "skip_map" => match &self.plan.skipping {
-                Some(question) => Resource::Texture(question.texture(gpu, &mut memory.skipping, &mut memory.splines)?),
+                Some(question) => {
+                    Resource::Texture(question.texture(gpu, &mut memory.skipping, &mut memory.splines)?)
+                }
                 None => return Err(unknown(name)),
             },
             "counters" => Resource::Buffer(counters.cloned().ok_or_else(|| unknown(name))?),
@@ -251,7 +260,8 @@ fn linear_sampler(gpu: &Gpu) -> wgpu::Sampler {
 
 fn counts(gpu: &Gpu, counters: &wgpu::Buffer) -> Result<Map<String, serde_json::Value>, GpuError> {
     let bytes = gpu.read_buffer(counters)?;
-    let words: Vec<u32> = bytes.chunks_exact(4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]])).collect();
+    let words: Vec<u32> =
+        bytes.chunks_exact(4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]])).collect();
     let wide = |slot: usize| u64::from(words[slot]) | u64::from(words[slot + 1]) << 32;
     let named = [("rays", wide(0)), ("samples", wide(2)), ("contributing", wide(4))];
     Ok(named.into_iter().map(|(name, count)| (name.to_owned(), json!(count))).collect())

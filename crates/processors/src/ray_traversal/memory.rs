@@ -32,7 +32,8 @@ impl Memory {
     /// What is wrong with the snippets, with file, line and column.
     pub(super) fn shader(&mut self, library: &Library, choice: &Choice) -> Result<Arc<Validated>, ProcessError> {
         // A path stands for its text, but for edited ones.
-        let edited = choice.snippets.values().chain(choice.outputs.iter().flatten()).filter(|path| path.starts_with("edited/"));
+        let edited =
+            choice.snippets.values().chain(choice.outputs.iter().flatten()).filter(|path| path.starts_with("edited/"));
         let texts = edited.filter_map(|path| Some(library.source(path)?.text.clone())).collect();
         let shader = self.validated.get((choice.clone(), texts), || {
             let assembled = assemble(library, choice).map_err(shader_error)?;

@@ -14,9 +14,7 @@ mod tables;
 
 use std::sync::Arc;
 
-use rayloom_network::{
-    Declaration, ImageKind, Job, Outputs, ProcessError, ProcessorType, Properties, PropertyDecl,
-};
+use rayloom_network::{Declaration, ImageKind, Job, Outputs, ProcessError, ProcessorType, Properties, PropertyDecl};
 use rayloom_wgsl::{Assembled, Library};
 
 use crate::process::{Process, Runner};
@@ -85,7 +83,9 @@ impl<'a> Inputs<'a> {
             _ => None,
         };
         let view = entry.view.as_ref().ok_or_else(|| {
-            ProcessError::new("the entry points do not say which camera saw them; take them from an entry/exit points processor")
+            ProcessError::new(
+                "the entry points do not say which camera saw them; take them from an entry/exit points processor",
+            )
         })?;
         if entry.size() != exit.size() || exit.view.as_ref() != Some(view) {
             return Err(ProcessError::new(
@@ -139,7 +139,8 @@ impl RayTraversal {
         let mut outputs = Outputs::new();
         for (outport, target) in OUTPORTS.iter().zip(drawn.targets) {
             if let Some(dispatch::Target { color, depth }) = target {
-                let image = Image { color, depth: Some(depth), kind: ImageKind::Color, view: Some(inputs.view.clone()) };
+                let image =
+                    Image { color, depth: Some(depth), kind: ImageKind::Color, view: Some(inputs.view.clone()) };
                 outputs = outputs.with(*outport, image.into());
             }
         }

@@ -32,7 +32,9 @@ fn property(place: &Place, parameter: &Parameter) -> PropertyDecl {
     let unit = if parameter.unit == "data" { "value" } else { &parameter.unit };
     let declared = match (parameter.ty, &parameter.default[..]) {
         (ParameterType::Float, [default, ..]) => PropertyDecl::float(id, label, *default).range(low, high).unit(unit),
-        (ParameterType::Integer, [default, ..]) => PropertyDecl::int(id, label, *default as i64).int_range(low as i64, high as i64).unit(unit),
+        (ParameterType::Integer, [default, ..]) => {
+            PropertyDecl::int(id, label, *default as i64).int_range(low as i64, high as i64).unit(unit)
+        }
         (ParameterType::Color, [r, g, b, ..]) => PropertyDecl::color(id, label, [*r, *g, *b, 1.0]),
         (_, _) => PropertyDecl::float(id, label, 0.0),
     };
@@ -52,10 +54,16 @@ pub(super) fn bytes(shader: &Validated, properties: &Properties, range: ValueRan
         let (Some(place), Some((_, offset))) = (place, offset) else { continue };
         let id = id(place, parameter);
         let value: Vec<u8> = match parameter.ty {
-            ParameterType::Float if parameter.unit == "data" => normalised(properties.f64(&id)?, range).to_le_bytes().to_vec(),
+            ParameterType::Float if parameter.unit == "data" => {
+                normalised(properties.f64(&id)?, range).to_le_bytes().to_vec()
+            }
             ParameterType::Float => (properties.f64(&id)? as f32).to_le_bytes().to_vec(),
-            ParameterType::Integer => (properties.int(&id)?.clamp(0, i64::from(u32::MAX)) as u32).to_le_bytes().to_vec(),
-            ParameterType::Color => properties.color(&id)?[..3].iter().flat_map(|c| (*c as f32).to_le_bytes()).collect(),
+            ParameterType::Integer => {
+                (properties.int(&id)?.clamp(0, i64::from(u32::MAX)) as u32).to_le_bytes().to_vec()
+            }
+            ParameterType::Color => {
+                properties.color(&id)?[..3].iter().flat_map(|c| (*c as f32).to_le_bytes()).collect()
+            }
         };
         bytes[*offset as usize..][..value.len()].copy_from_slice(&value);
     }

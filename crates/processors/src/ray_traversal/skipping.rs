@@ -69,7 +69,9 @@ impl<'a> Question<'a> {
     ) -> Result<Option<Self>, ProcessError> {
         let declaration = |slot: Slot| choice.snippets.get(&slot).and_then(|path| library.declaration(path));
         let Some(skipping) = choice.snippets.get(&Slot::Skipping) else { return Ok(None) };
-        let Some((sampling, kernel)) = declaration(Slot::Sampling).and_then(|sampling| Some((sampling, sampling.kernel?))) else {
+        let Some((sampling, kernel)) =
+            declaration(Slot::Sampling).and_then(|sampling| Some((sampling, sampling.kernel?)))
+        else {
             return Ok(None);
         };
         let mut isovalues = Vec::new();
@@ -93,7 +95,9 @@ impl<'a> Question<'a> {
         }
         let visibility = match declaration(Slot::Classification).map(|classification| &classification.visibility) {
             _ if !transparent => VisibilityKey::Nothing,
-            Some(Visibility::TransferFunction) => VisibilityKey::Function(properties.transfer_function("transfer_function")?.clone()),
+            Some(Visibility::TransferFunction) => {
+                VisibilityKey::Function(properties.transfer_function("transfer_function")?.clone())
+            }
             Some(Visibility::TransferFunction2D) => {
                 VisibilityKey::Function2D(properties.transfer_function_2d("transfer_function_2d")?.clone())
             }
@@ -145,12 +149,15 @@ impl<'a> Question<'a> {
         splines: &mut Splines,
     ) -> Result<Arc<Texture>, ProcessError> {
         let map = self.map(memory, splines)?;
-        memory.texture.get(self.key.clone(), || {
-            let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
-            let texture = gpu.texture_3d("skipping map", map.grid, TextureFormat::R8Uint, usage)?;
-            gpu.upload(&texture, &map.bytes)?;
-            Ok::<_, GpuError>(Arc::new(texture))
-        }).map_err(Into::into)
+        memory
+            .texture
+            .get(self.key.clone(), || {
+                let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
+                let texture = gpu.texture_3d("skipping map", map.grid, TextureFormat::R8Uint, usage)?;
+                gpu.upload(&texture, &map.bytes)?;
+                Ok::<_, GpuError>(Arc::new(texture))
+            })
+            .map_err(Into::into)
     }
 
     /// Bricks a unit of volume coordinates, along each axis.

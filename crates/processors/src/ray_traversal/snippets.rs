@@ -69,7 +69,9 @@ impl Place {
     pub fn path(&self, library: &mut Library, properties: &Properties) -> Result<Option<Arc<str>>, ProcessError> {
         let text = properties.text(self.text)?;
         if !text.trim().is_empty() {
-            return Ok(Some(library.add_edited(self.id, self.slot, text).map_err(|problem| shader_error(vec![problem]))?));
+            return Ok(Some(
+                library.add_edited(self.id, self.slot, text).map_err(|problem| shader_error(vec![problem]))?,
+            ));
         }
         let id = properties.text(self.id)?;
         if self.slot == Slot::Skipping && id == "auto" {

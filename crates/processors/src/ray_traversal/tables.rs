@@ -56,7 +56,12 @@ pub(super) fn preintegrated(
 pub(super) fn labels(gpu: &Gpu, table: &LabelTable, range: ValueRange) -> Result<Arc<Texture>, GpuError> {
     let rows = table.labels.last_key_value().map_or(0, |(label, _)| *label as usize + 1) + 1;
     // A table too tall for the device is refused before it is filled.
-    gpu.texture_2d("label table", [ENTRIES_2D as u32, rows.min(u32::MAX as usize) as u32], TextureFormat::Rgba32Float, TextureUsages::TEXTURE_BINDING)?;
+    gpu.texture_2d(
+        "label table",
+        [ENTRIES_2D as u32, rows.min(u32::MAX as usize) as u32],
+        TextureFormat::Rgba32Float,
+        TextureUsages::TEXTURE_BINDING,
+    )?;
     let mut entries = vec![[0.0; 4]; rows * ENTRIES_2D];
     for (label, meaning) in &table.labels {
         let row = meaning.transfer_function.table(range, ENTRIES_2D);
