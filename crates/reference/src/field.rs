@@ -60,6 +60,11 @@ impl Field {
         self.dims.as_dvec3() - 1.0
     }
 
+    /// How the field is reconstructed.
+    pub fn sampling(&self) -> Sampling {
+        self.sampling
+    }
+
     /// Smallest and largest finite voxel value of the channel, in data units.
     pub fn range(&self) -> ValueRange {
         self.range
@@ -102,6 +107,18 @@ impl Field {
         sum
     }
 
+    /// What reconstruction weights at a voxel, one or two of them beyond the edge at most: its value, or its coefficient of
+    /// [`Sampling::BSplinePrefiltered`].
+    pub(crate) fn tap(&self, index: [i32; 3]) -> f64 {
+        let wrap = if self.sampling == Sampling::BSplinePrefiltered { mirror } else { clamp };
+        self.sample(index, wrap)
+    }
+
+    /// The voxels, x fastest, or their coefficients.
+    pub(crate) fn taps(&self) -> &[f64] {
+        &self.samples
+    }
+
     fn sample(&self, index: [i32; 3], wrap: Wrap) -> f64 {
         let dims = self.dims.to_array();
         let [i, j, k] = [0, 1, 2].map(|axis| wrap(index[axis], dims[axis]));
@@ -127,7 +144,7 @@ fn mirror(index: i32, count: u32) -> usize {
 }
 
 /// Weights of the voxels at -1, 0, 1, 2 for the position `t` in 0..1.
-fn catmull_rom(t: f64) -> [f64; 4] {
+pub(crate) fn catmull_rom(t: f64) -> [f64; 4] {
     [
         0.5 * t * (t * (2.0 - t) - 1.0),
         0.5 * (t * t * (3.0 * t - 5.0) + 2.0),

@@ -17,6 +17,7 @@
 
 pub mod camera;
 pub mod closed_forms;
+pub mod exact;
 pub mod field;
 pub mod gradient;
 pub mod image;

@@ -1,7 +1,10 @@
 //! The reference renderer against closed forms, geometry and invariances.
 
 mod closed_forms;
+mod exact;
+mod exact_extremes;
 mod invariances;
+mod march;
 mod ray_box;
 mod reconstruction;
 mod scenes;

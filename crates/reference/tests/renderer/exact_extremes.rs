@@ -1,0 +1,1 @@
+//! The exact renderer where geometry and material are extreme.
