@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::program::{rayloom, rayloom_without_adapter};
+use crate::program::{rayloom, rayloom_without_adapter, rayloom_without_display};
 
 /// A folder with one network file, and the paths of that file and of a picture beside it.
 fn with_network(text: &str) -> (tempfile::TempDir, String, String) {
@@ -130,7 +130,7 @@ fn files_that_cannot_be_written_or_read_are_named() {
 fn what_cannot_be_understood_is_a_usage_error() {
     let file = "network.json";
     let cases: [(&[&str], &str); 9] = [
-        (&[], "Usage"),
+        (&["open", file, "--mode", "kiosk"], "visualization"),
         (&["paint"], "paint"),
         (&["render", file], "--output"),
         (&["render", file, "-o", "a.jpg"], ".png, .exr or .npy"),
@@ -145,6 +145,17 @@ fn what_cannot_be_understood_is_a_usage_error() {
         assert_eq!(ran.code, 2, "{arguments:?}");
         assert!(ran.stderr.contains(expected), "{arguments:?} gave {}", ran.stderr);
     }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn without_a_display_the_studio_says_what_works_instead() {
+    let (_folder, file, _) = with_network(&slice());
+    for arguments in [vec![], vec!["open", &file]] {
+        let error = rayloom_without_display(arguments).error();
+        assert!(error.contains("no display") && error.contains("rayloom render"), "{error}");
+    }
+    assert!(rayloom_without_display(["open", "no-such-network.json"]).error().contains("no-such-network.json"));
 }
 
 #[test]

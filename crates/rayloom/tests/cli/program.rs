@@ -32,6 +32,15 @@ pub fn rayloom_without_adapter<'a>(arguments: impl IntoIterator<Item = &'a str>)
         .env("WGPU_BACKEND", "vulkan"))
 }
 
+/// The same where there is no display.
+pub fn rayloom_without_display<'a>(arguments: impl IntoIterator<Item = &'a str>) -> Ran {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_rayloom"));
+    for variable in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
+        program.env_remove(variable);
+    }
+    run(program.args(arguments))
+}
+
 fn run(program: &mut Command) -> Ran {
     let Output { status, stdout, stderr } = program.current_dir(root()).output().expect("the program starts");
     let text = |bytes| String::from_utf8(bytes).expect("the program writes text");
