@@ -252,6 +252,7 @@ impl eframe::App for Studio {
         let (revision, document) = (self.session.document.revision(), &self.session.document);
         self.session.engine.order(revision, document.network(), request);
         self.session.display.end_frame();
+        self.session.inspection.end_frame();
         context.send_viewport_cmd(egui::ViewportCommand::Title(self.title()));
     }
 }

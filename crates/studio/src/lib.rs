@@ -8,6 +8,7 @@ mod app;
 mod display;
 mod document;
 mod engine;
+mod inspect;
 mod panels;
 mod session;
 mod theme;
@@ -16,6 +17,7 @@ pub use app::{Options, Studio};
 pub use display::{Display, Layer, Look};
 pub use document::Document;
 pub use engine::{Engine, Results};
+pub use inspect::{ChannelStatistics, Inspection, Statistics, hover, statistics};
 pub use panels::Pane;
 pub use session::{Message, Mode, Session, Severity};
 

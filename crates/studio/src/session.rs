@@ -10,6 +10,8 @@ use rayloom_network::{Address, EditError, Network, Registry, Request, Sinks, Val
 use crate::display::Display;
 use crate::document::Document;
 use crate::engine::Engine;
+use crate::inspect::Inspection;
+use crate::panels::Pane;
 
 /// How the window is used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -54,6 +56,10 @@ pub struct Session {
     pub engine: Engine,
     /// Shows its images.
     pub display: Display,
+    /// What is known about data that is looked at.
+    pub inspection: Inspection,
+    /// Panes that panels ask the window to open, after this frame.
+    pub to_open: Vec<Pane>,
     /// Selected processors.
     pub selection: BTreeSet<String>,
     /// What the user was told, oldest first.
@@ -76,6 +82,8 @@ impl Session {
             registry,
             engine,
             display,
+            inspection: Inspection::default(),
+            to_open: Vec::new(),
             selection: BTreeSet::new(),
             messages: Vec::new(),
             mode: Mode::default(),

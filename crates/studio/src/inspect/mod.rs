@@ -1,0 +1,104 @@
+//! What flows through connections, shown without changing or running anything that was not needed anyway.
+
+mod image;
+mod latest;
+mod statistics;
+pub(crate) mod text;
+
+pub use statistics::{ChannelStatistics, Statistics, statistics};
+
+use std::sync::{Arc, Mutex};
+
+use rayloom_gpu::{GpuError, PipelineCache};
+use rayloom_network::{Address, Readiness, readiness};
+use rayloom_processors::{Data, Image};
+
+use crate::session::Session;
+use crate::theme;
+use latest::Latest;
+
+/// What is known about the data that is looked at.
+#[derive(Default)]
+pub struct Inspection {
+    pipelines: Arc<Mutex<PipelineCache>>,
+    statistics: Latest<Address, Image, Result<Statistics, GpuError>>,
+}
+
+impl Inspection {
+    /// To be called once a frame: forgets what is no longer looked at.
+    pub fn end_frame(&mut self) {
+        self.statistics.end_frame();
+    }
+}
+
+impl Session {
+    /// Numbers about the image on an outport: the newest there are, which may be about the image just before this one.
+    pub fn statistics(
+        &mut self,
+        context: &egui::Context,
+        outport: &Address,
+        image: &Arc<Image>,
+    ) -> Option<Arc<Result<Statistics, GpuError>>> {
+        let (gpu, pipelines) = (self.display.gpu().clone(), self.inspection.pipelines.clone());
+        let compute = move |image: Arc<Image>| statistics(&gpu, &pipelines, &image);
+        self.inspection.statistics.get(outport, image, context, compute)
+    }
+}
+
+/// What flows from an outport, for a tooltip: live, and computed if it was not needed so far.
+pub fn hover(ui: &mut egui::Ui, session: &mut Session, outport: &Address) {
+    session.watched.insert(outport.clone());
+    ui.spacing_mut().item_spacing = egui::vec2(6.0, 4.0);
+    heading(ui, session, outport);
+    match session.engine.results.outputs.get(outport).cloned() {
+        Some(data) => content(ui, session, outport, &data),
+        None => absence(ui, session, outport),
+    }
+}
+
+fn content(ui: &mut egui::Ui, session: &mut Session, outport: &Address, data: &Data) {
+    match data {
+        Data::Image(image) => image::show(ui, session, outport, image),
+        Data::Volume(_) | Data::Geometry(_) => {
+            ui.weak("data");
+        }
+    }
+}
+
+/// The address, in the colour of its type.
+fn heading(ui: &mut egui::Ui, session: &Session, outport: &Address) {
+    let declared = session.network().processor(&outport.processor).and_then(|processor| processor.declaration());
+    let port = declared.and_then(|declaration| declaration.outport(&outport.item));
+    ui.horizontal(|ui| {
+        if let Some(port) = port {
+            let (dot, _) = ui.allocate_exact_size(egui::Vec2::splat(10.0), egui::Sense::hover());
+            ui.painter().circle_filled(dot.center(), 4.0, theme::port_color(port.port_type));
+        }
+        ui.strong(outport.to_string());
+    });
+}
+
+/// Why there is nothing on an outport.
+fn absence(ui: &mut egui::Ui, session: &Session, outport: &Address) {
+    let report = &session.engine.results.report;
+    let id = &outport.processor;
+    ui.set_max_width(320.0);
+    if let Some(error) = report.failed.get(id) {
+        ui.colored_label(theme::ERROR, format!("{id} failed: {error}"));
+        return;
+    }
+    let reasons = match (report.not_ready.get(id), readiness(session.network(), id)) {
+        (Some(reasons), _) => reasons.clone(),
+        (None, Readiness::NotReady(reasons)) => reasons,
+        (None, Readiness::Ready) => Vec::new(),
+    };
+    for reason in &reasons {
+        ui.colored_label(theme::WARNING, reason);
+    }
+    if reasons.is_empty() {
+        ui.horizontal(|ui| {
+            ui.spinner();
+            ui.weak("being computed...");
+        });
+    }
+}
