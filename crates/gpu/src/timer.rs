@@ -38,9 +38,9 @@ impl Timer {
     /// A timer, switched on.
     pub fn new(gpu: &Gpu) -> Result<Self, GpuError> {
         let clock = match gpu.info.device_type {
+            _ if !gpu.features.timestamps => Clock::None,
             wgpu::DeviceType::Cpu => Clock::Wall(Cell::new(None)),
-            _ if gpu.features.timestamps => Clock::Device(Queries::new(gpu)?),
-            _ => Clock::None,
+            _ => Clock::Device(Queries::new(gpu)?),
         };
         Ok(Self { clock, used: Cell::new(0), enabled: true })
     }
