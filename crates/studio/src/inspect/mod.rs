@@ -1,9 +1,12 @@
 //! What flows through connections, shown without changing or running anything that was not needed anyway.
 
-mod image;
+mod digest;
+mod geometry;
+pub(crate) mod image;
 mod latest;
 mod statistics;
 pub(crate) mod text;
+mod volume;
 
 pub use statistics::{ChannelStatistics, Statistics, statistics};
 
@@ -11,10 +14,11 @@ use std::sync::{Arc, Mutex};
 
 use rayloom_gpu::{GpuError, PipelineCache};
 use rayloom_network::{Address, Readiness, readiness};
-use rayloom_processors::{Data, Image};
+use rayloom_processors::{Data, Image, VolumeData};
 
 use crate::session::Session;
 use crate::theme;
+use digest::Digest;
 use latest::Latest;
 
 /// What is known about the data that is looked at.
@@ -22,12 +26,14 @@ use latest::Latest;
 pub struct Inspection {
     pipelines: Arc<Mutex<PipelineCache>>,
     statistics: Latest<Address, Image, Result<Statistics, GpuError>>,
+    digests: Latest<usize, VolumeData, Digest>,
 }
 
 impl Inspection {
     /// To be called once a frame: forgets what is no longer looked at.
     pub fn end_frame(&mut self) {
         self.statistics.end_frame();
+        self.digests.end_frame();
     }
 }
 
@@ -42,6 +48,13 @@ impl Session {
         let (gpu, pipelines) = (self.display.gpu().clone(), self.inspection.pipelines.clone());
         let compute = move |image: Arc<Image>| statistics(&gpu, &pipelines, &image);
         self.inspection.statistics.get(outport, image, context, compute)
+    }
+
+    /// A volume in brief, once it has been looked at.
+    fn digest(&mut self, context: &egui::Context, data: &Arc<VolumeData>) -> Option<Arc<Digest>> {
+        let features = self.display.gpu().features;
+        let key = Arc::as_ptr(data) as usize;
+        self.inspection.digests.get(&key, data, context, move |data| Digest::new(&data, features))
     }
 }
 
@@ -59,9 +72,8 @@ pub fn hover(ui: &mut egui::Ui, session: &mut Session, outport: &Address) {
 fn content(ui: &mut egui::Ui, session: &mut Session, outport: &Address, data: &Data) {
     match data {
         Data::Image(image) => image::show(ui, session, outport, image),
-        Data::Volume(_) | Data::Geometry(_) => {
-            ui.weak("data");
-        }
+        Data::Volume(volume) => volume::show(ui, session, volume),
+        Data::Geometry(mesh) => geometry::show(ui, outport, mesh),
     }
 }
 
