@@ -69,12 +69,11 @@ pub const AXES_UNSHADED: f64 = 5e-6;
 /// The same with shading: normals are differences of close values.
 pub const AXES_SHADED: f64 = 1e-5;
 /// The same with surfaces: where a ray grazes one, its place along the ray is rounding divided by the sine of the angle.
-pub const AXES_SURFACE: f64 = 1e-3;
+pub const AXES_SURFACE: f64 = 5e-4;
 /// I8: two halves, composited.
 pub const HALVES: f64 = 1e-6;
-/// I12: a coordinate of a ray is rounded three times by 6e-8 of a box of up to 34 voxels, 6e-6 voxels, otherwise in a larger
-/// volume. All samples of a ray along an axis are off alike; some ten of them change the opacity, by up to 1 a voxel each.
-pub const PADDED: f64 = 6e-5;
-/// The same with shading: by 6e-6 voxels of a field that curves by 0.3 a voxel squared a normal of slope 0.1 turns by 2e-5, and
-/// the flank of a highlight of exponent 32 is up to ten times as steep.
-pub const PADDED_SHADED: f64 = 2e-4;
+/// I12: a coordinate of a ray is rounded three times by 6e-8 of a box of up to 34 voxels, otherwise in a larger volume; some ten
+/// samples of a ray along an axis are off alike by those few 1e-6 voxels and change the opacity by up to 1 a voxel each.
+pub const PADDED: f64 = 5e-6;
+/// The same with shading, and where the place of a surface counts.
+pub const PADDED_SHADED: f64 = 5e-5;

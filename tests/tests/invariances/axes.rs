@@ -43,7 +43,7 @@ fn cameras() -> [Camera; 3] {
 const LOOKS: [&[(&str, &str)]; 3] = [
     &[],
     &[("shading", "blinn_phong")],
-    &[("compositing", "isosurface"), ("shading", "diffuse"), ("refinement", "bisection")],
+    &[("compositing", "isosurface"), ("shading", "diffuse"), ("refinement", "secant")],
 ];
 
 /// The volume whose index axis `a` runs along the old axis `order[a]`, backwards where `flipped[a]`, and the same world.
