@@ -1,0 +1,71 @@
+//! A window without a screen, on the real device with the real evaluator.
+
+#![allow(dead_code, reason = "every test program uses its own part")]
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use rayloom_studio::{Options, Session, Studio};
+
+/// Longest time that anything may take on a slow device.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A piece of the window: one function that shows something of a session.
+pub struct Piece<F> {
+    /// The session's owner.
+    pub studio: Studio,
+    show: F,
+}
+
+impl<F: FnMut(&mut egui::Ui, &mut Session)> eframe::App for Piece<F> {
+    fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
+        let session = &mut self.studio.session;
+        session.engine.listen();
+        session.watched.clear();
+        egui::CentralPanel::default().show(ui, |ui| (self.show)(ui, session));
+        let request = session.request();
+        session.engine.order(session.document.revision(), session.document.network(), request);
+        session.display.end_frame();
+        session.inspection.end_frame();
+    }
+}
+
+/// A file of the project.
+pub fn project(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(path)
+}
+
+fn builder<T: eframe::App>() -> egui_kittest::HarnessBuilder<T> {
+    Harness::builder().with_size([1280.0, 800.0]).wgpu_setup(rayloom_studio::wgpu_setup())
+}
+
+/// A piece of the window with a network open.
+pub fn harness<F: FnMut(&mut egui::Ui, &mut Session) + 'static>(network: &str, show: F) -> Harness<'static, Piece<F>> {
+    let options = Options { network: Some(project(network)), ..Options::default() };
+    builder().build_eframe(move |creation| Piece { studio: Studio::new(creation, &options).expect("a studio"), show })
+}
+
+/// The whole window.
+pub fn studio(options: Options) -> Harness<'static, Studio> {
+    builder().build_eframe(move |creation| Studio::new(creation, &options).expect("a studio"))
+}
+
+/// Frames until something is labelled so.
+pub fn wait_for<T>(harness: &mut Harness<'_, T>, label: &str) {
+    let start = Instant::now();
+    while harness.query_all_by_label_contains(label).next().is_none() {
+        assert!(start.elapsed() < PATIENCE, "nothing says `{label}`");
+        harness.step();
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+/// Writes what is on the window for people to look at.
+pub fn keep_picture<T>(harness: &mut Harness<'_, T>, name: &str) {
+    let picture = harness.render().expect("a picture");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("studio");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    picture.save(folder.join(format!("{name}.png"))).expect("saved");
+}
