@@ -49,9 +49,9 @@ fn add(state: ptr<function, State>, ray: Ray, s: Sample) {
     if order * (isovalues[1] - isovalues[0]) < 0.0 {
         swap_surfaces(&isovalues, &colors, 0, 1);
     }
-    for (var k = 0; k < 3; k++) {
-        cross_surface(state, ray, s, isovalues[k], colors[k].rgb, colors[k].a);
-    }
+    cross_surface(state, ray, s, isovalues[0], colors[0].rgb, colors[0].a);
+    cross_surface(state, ray, s, isovalues[1], colors[1].rgb, colors[1].a);
+    cross_surface(state, ray, s, isovalues[2], colors[2].rgb, colors[2].a);
 }
 
 fn swap_surfaces(isovalues: ptr<function, array<f32, 3>>, colors: ptr<function, array<vec4f, 3>>, i: i32, j: i32) {

@@ -4,11 +4,19 @@
 
 #include "gradient/slope.wgsl"
 
+// Written without loops: some drivers bound the loop rounds of an invocation, and a ray needs them for its samples.
+
 fn gradient_at(p: vec3f, voxel: vec4f) -> vec3f {
-    var sum = vec3f(0.0);
-    for (var corner = 0u; corner < 8u; corner++) {
-        let side = vec3f(vec3u(corner, corner >> 1u, corner >> 2u) & vec3u(1u)) * 2.0 - 1.0;
-        sum += slopes(p + side / frame.dims, 1.0, 1.0);
-    }
-    return 0.25 * slopes(p, 1.0, 1.0) + 0.75 / 8.0 * sum;
+    let h = 1.0 / frame.dims;
+    let below = p - h;
+    let above = p + h;
+    let corners = slopes(below, 1.0, 1.0)
+        + slopes(vec3f(above.x, below.yz), 1.0, 1.0)
+        + slopes(vec3f(below.x, above.y, below.z), 1.0, 1.0)
+        + slopes(vec3f(above.xy, below.z), 1.0, 1.0)
+        + slopes(vec3f(below.xy, above.z), 1.0, 1.0)
+        + slopes(vec3f(above.x, below.y, above.z), 1.0, 1.0)
+        + slopes(vec3f(below.x, above.yz), 1.0, 1.0)
+        + slopes(above, 1.0, 1.0);
+    return 0.25 * slopes(p, 1.0, 1.0) + 0.75 / 8.0 * corners;
 }

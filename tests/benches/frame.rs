@@ -18,7 +18,10 @@ const SCENES: [Scene; 6] = [
     ("unshaded DVR", &[("shading", r#""none""#)]),
     ("shaded DVR, central differences", &[("shading", r#""blinn_phong""#)]),
     ("shaded DVR, no early termination", &[("shading", r#""blinn_phong""#), ("termination_error", "0")]),
-    ("isosurface, shaded", &[("shading", r#""blinn_phong""#), ("compositing", r#""isosurface""#), ("compositing.isovalue", "60")]),
+    (
+        "isosurface, shaded",
+        &[("shading", r#""blinn_phong""#), ("compositing", r#""isosurface""#), ("compositing.isovalue", "60")],
+    ),
     ("MIP", &[("shading", r#""none""#), ("compositing", r#""mip""#)]),
     ("pre-integrated DVR", &[("shading", r#""none""#), ("classification", r#""preintegrated_fast""#)]),
 ];
@@ -45,7 +48,9 @@ fn measure(volume: &str, (name, settings): Scene) {
             for (property, value) in settings {
                 bench.set(&format!("traversal.{property}"), value);
             }
-            bench.set("traversal.skipping", &format!("{skipping:?}")).set("traversal.brick_size", &format!("{brick:?}"));
+            bench
+                .set("traversal.skipping", &format!("{skipping:?}"))
+                .set("traversal.brick_size", &format!("{brick:?}"));
             bench.runner.measure(true);
             let count = samples(&mut bench, SIZE);
             time_again(&mut bench, "traversal", "image", SIZE);
@@ -61,7 +66,12 @@ fn measure(volume: &str, (name, settings): Scene) {
     let plain = benches[0].3.clone();
     for (skipping, _, count, times) in &benches {
         let ratio = Summary::of_ratios(times, &plain);
-        println!("    {skipping:<12} {:>9.1} ms   ratio {:.2}   {:.2} M samples", Summary::of(times).median, ratio.median, *count as f64 * 1e-6);
+        println!(
+            "    {skipping:<12} {:>9.1} ms   ratio {:.2}   {:.2} M samples",
+            Summary::of(times).median,
+            ratio.median,
+            *count as f64 * 1e-6
+        );
     }
 }
 

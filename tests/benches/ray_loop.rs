@@ -45,7 +45,10 @@ fn main() {
         times[0].push(time_again(&mut bench, "traversal", "image", [SIZE; 2]));
         times[1].push(hand_written.run());
     }
-    println!("unshaded DVR of 181 x 217 x 181 voxels at {SIZE} x {SIZE}, one sample a voxel, on {}", hand_written.gpu.describe());
+    println!(
+        "unshaded DVR of 181 x 217 x 181 voxels at {SIZE} x {SIZE}, one sample a voxel, on {}",
+        hand_written.gpu.describe()
+    );
     println!("largest difference of the pictures {difference:.1e}");
     println!("assembled    {} ms", Summary::of(&times[0]));
     println!("hand-written {} ms", Summary::of(&times[1]));
@@ -107,11 +110,19 @@ impl HandWritten {
         });
         let text = include_str!("hand_written.wgsl");
         let pipeline = PipelineCache::new().compute(&gpu, "hand-written loop", text, "dvr").expect("shader");
-        let views = [&stored.texture.view, &entry.color.view, &exit.color.view, &table.view, &targets[0].view, &targets[1].view];
+        let views = [
+            &stored.texture.view,
+            &entry.color.view,
+            &exit.color.view,
+            &table.view,
+            &targets[0].view,
+            &targets[1].view,
+        ];
         let mut resources = vec![uniform.as_entire_binding()];
         resources.extend(views.map(wgpu::BindingResource::TextureView));
         resources.insert(2, wgpu::BindingResource::Sampler(&linear));
-        let entries: Vec<_> = (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
+        let entries: Vec<_> =
+            (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
         let layout = &pipeline.get_bind_group_layout(0);
         let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries });
         let timer = Timer::new(&gpu).expect("timer");

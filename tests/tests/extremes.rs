@@ -36,8 +36,7 @@ fn ends(property: &PropertyDecl) -> Vec<Value> {
 
 /// The picture, or the message.
 fn outcome(bench: &mut Workbench) -> Result<Picture, String> {
-    let request =
-        Request { watch: vec![("traversal", "image").into()], size: Some(SIZE), ..Request::default() };
+    let request = Request { watch: vec![("traversal", "image").into()], size: Some(SIZE), ..Request::default() };
     let report = bench.evaluate(&request);
     let failed = report.runs.iter().find_map(|run| match &run.outcome {
         Outcome::Failed(error) => Some(error.to_string()),
@@ -52,13 +51,16 @@ fn outcome(bench: &mut Workbench) -> Result<Picture, String> {
 
 #[test]
 fn every_number_at_the_ends_of_its_range_gives_a_finite_picture() {
-    let scene = Network::from_text(SCENE, &root().join("scene.json"), &types()).unwrap_or_else(|error| panic!("{error}"));
+    let scene =
+        Network::from_text(SCENE, &root().join("scene.json"), &types()).unwrap_or_else(|error| panic!("{error}"));
     let mut bench = Workbench::new(scene.network);
-    let compositings = ["dvr", "mida", "isosurface", "isosurfaces", "isosurface_dvr", "attenuated_mip", "sum", "first_hit_normal"];
+    let compositings =
+        ["dvr", "mida", "isosurface", "isosurfaces", "isosurface_dvr", "attenuated_mip", "sum", "first_hit_normal"];
     let (mut tried, mut refused) = (0, 0);
     for compositing in compositings {
         bench.put("traversal.compositing", compositing.into()).put("traversal.shading", "cook_torrance".into());
-        let properties = bench.network.processor("traversal").map(|traversal| traversal.property_decls()).unwrap_or_default();
+        let properties =
+            bench.network.processor("traversal").map(|traversal| traversal.property_decls()).unwrap_or_default();
         for property in properties.iter().filter(|property| property.id != "compositing") {
             let before = bench.network.value("traversal", &property.id).expect("declared");
             for value in ends(property) {
@@ -71,7 +73,11 @@ fn every_number_at_the_ends_of_its_range_gives_a_finite_picture() {
                     }
                     Err(message) => {
                         refused += 1;
-                        assert!(property.id == "channel" && message.contains("choose a smaller one"), "{} = {value:?}: {message}", property.id);
+                        assert!(
+                            property.id == "channel" && message.contains("choose a smaller one"),
+                            "{} = {value:?}: {message}",
+                            property.id
+                        );
                     }
                 }
             }

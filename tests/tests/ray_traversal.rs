@@ -25,7 +25,9 @@ const SCENE: &str = r#"{
 }"#;
 
 fn scene() -> Network {
-    Network::from_text(SCENE, &root().join("tests/scene.json"), &types()).unwrap_or_else(|error| panic!("{error}")).network
+    Network::from_text(SCENE, &root().join("tests/scene.json"), &types())
+        .unwrap_or_else(|error| panic!("{error}"))
+        .network
 }
 
 fn evaluate(bench: &mut Workbench) -> Report {
@@ -88,7 +90,9 @@ fn numbers_assemble_nothing_and_earlier_choices_are_found_again() {
 fn unused_outputs_are_not_compiled() {
     let mut bench = Workbench::new(scene());
     assert!(why(&mut bench).is_some());
-    let text = |bench: &mut Workbench| bench.runner.assembled("traversal").map(|shader| shader.text.clone()).unwrap_or_default();
+    let text = |bench: &mut Workbench| {
+        bench.runner.assembled("traversal").map(|shader| shader.text.clone()).unwrap_or_default()
+    };
     assert!(!text(&mut bench).contains("out2_"));
     let normals = bench.picture("traversal", "image3", SIZE);
     assert!(text(&mut bench).contains("out3_") && !text(&mut bench).contains("out2_"));
@@ -126,7 +130,8 @@ fn edited_text_survives_saving_and_loading() {
     bench.put("traversal.gradient.text", text.into());
     let before = bench.picture("traversal", "image", SIZE);
     let saved = bench.network.to_text(None);
-    let loaded = Network::from_text(&saved, &root().join("tests/scene.json"), &types()).unwrap_or_else(|error| panic!("{error}"));
+    let loaded = Network::from_text(&saved, &root().join("tests/scene.json"), &types())
+        .unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(difference(&Workbench::new(loaded.network).picture("traversal", "image", SIZE), &before), 0.0);
 }
 
@@ -173,9 +178,17 @@ fn samples_are_counted() {
     let count = |name: &str| run.statistics.get(name).and_then(|count| count.as_u64()).unwrap_or_default();
     let entry = bench.picture("view", "entry", SIZE);
     let exit = bench.picture("view", "exit", SIZE);
-    let chord = |(entry, exit): (&[f32; 4], &[f32; 4])| (0..3).map(|i| ((exit[i] - entry[i]) * 32.0).powi(2)).sum::<f32>().sqrt();
+    let chord = |(entry, exit): (&[f32; 4], &[f32; 4])| {
+        (0..3).map(|i| ((exit[i] - entry[i]) * 32.0).powi(2)).sum::<f32>().sqrt()
+    };
     let hits = entry.color.iter().filter(|point| point[3] > 0.5).count() as u64;
-    let samples: u64 = entry.color.iter().zip(&exit.color).filter(|(entry, _)| entry[3] > 0.5).map(|pair| (chord(pair) - 1e-4).ceil().max(1.0) as u64).sum();
+    let samples: u64 = entry
+        .color
+        .iter()
+        .zip(&exit.color)
+        .filter(|(entry, _)| entry[3] > 0.5)
+        .map(|pair| (chord(pair) - 1e-4).ceil().max(1.0) as u64)
+        .sum();
     assert_eq!(count("rays"), hits);
     assert!(count("samples").abs_diff(samples) <= 4, "{} {samples}", count("samples"));
     assert!(count("contributing") > 0 && count("contributing") < count("samples"));

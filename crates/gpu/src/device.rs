@@ -134,6 +134,12 @@ impl Gpu {
         }
     }
 
+    /// How many rounds all loops of one shader invocation may make together, where the driver stops them silently; `None`
+    /// where it does not. Mesa's software drivers do, after 65,535 (`LP_MAX_TGSI_LOOP_ITERATIONS`).
+    pub fn loop_rounds(&self) -> Option<u32> {
+        self.info.name.contains("llvmpipe").then_some(65_535)
+    }
+
     /// One line for humans: adapter, kind, backend and driver.
     pub fn describe(&self) -> String {
         let info = &self.info;

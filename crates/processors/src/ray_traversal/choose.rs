@@ -20,6 +20,8 @@ pub(super) struct Plan<'a> {
     pub choice: Choice,
     /// The channel of the volume that is classified.
     pub channel: u32,
+    /// Samples that the device lets one ray take, where it has a limit.
+    pub most_samples: Option<u32>,
     /// What the skipping map depends on, when there is skipping.
     pub skipping: Option<Question<'a>>,
 }
@@ -66,7 +68,29 @@ pub(super) fn plan<'a>(
             volume.name
         )));
     }
-    Ok(Plan { library, choice, channel, skipping })
+    let most_samples = most_samples(context, job, inputs, features.has("search"), notes)?;
+    Ok(Plan { library, choice, channel, most_samples, skipping })
+}
+
+/// The samples a ray may take before the driver would stop it without a word; longer rays get longer steps, and a note.
+fn most_samples(
+    context: &Context,
+    job: &Job<'_, Data>,
+    inputs: &Inputs<'_>,
+    nested: bool,
+    notes: &mut Vec<String>,
+) -> Result<Option<u32>, ProcessError> {
+    /// Rounds left to the refinement of surfaces.
+    const SPARE: u32 = 256;
+    let Some(rounds) = context.gpu.loop_rounds() else { return Ok(None) };
+    let most = (rounds - SPARE) / if nested { 2 } else { 1 };
+    let longest = inputs.volume.volume.dims_f64().length() * job.properties.f64("sampling_rate")?;
+    if longest > f64::from(most) {
+        notes.push(format!(
+            "This device's driver ends loops after {rounds} rounds, so a ray takes at most {most} samples; longer rays take longer steps."
+        ));
+    }
+    Ok(Some(most))
 }
 
 /// The channel to classify: that of the property, or the value beside a gradient.

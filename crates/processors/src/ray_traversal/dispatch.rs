@@ -121,6 +121,7 @@ impl Pass<'_> {
             let stored = self.inputs.volume.on_gpu(gpu)?;
             (frame.texel_scale, frame.texel_offset) = (stored.scale, stored.offset);
         }
+        frame.max_samples = frame.max_samples.min(self.plan.most_samples.unwrap_or(u32::MAX));
         if let Some(question) = &self.plan.skipping {
             frame.brick_scale = question.brick_scale();
         }

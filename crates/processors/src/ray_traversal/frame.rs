@@ -25,7 +25,7 @@ pub(super) struct Frame {
     pub brick_scale: [f32; 3],
     two_sided: f32,
     image_size: [u32; 2],
-    max_samples: u32,
+    pub max_samples: u32,
     gradient_scale: f32,
     pub label_minimum: f32,
     pub label_span: f32,
