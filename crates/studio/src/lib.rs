@@ -5,19 +5,22 @@
 //! thread of its own; its results are what the panels show in the next frame.
 
 mod app;
+mod catalog;
 mod display;
 mod document;
 mod engine;
 mod inspect;
+mod palette;
 mod panels;
 mod session;
 mod theme;
+mod wiring;
 
 pub use app::{Options, Studio};
 pub use display::{Display, Layer, Look};
 pub use document::Document;
 pub use engine::{Engine, Results};
-pub use inspect::{ChannelStatistics, Inspection, Statistics, hover, statistics};
+pub use inspect::{ChannelStatistics, Inspection, Pixel, Reading, Statistics, hover, statistics};
 pub use panels::Pane;
 pub use session::{Message, Mode, Session, Severity};
 

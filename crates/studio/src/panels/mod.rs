@@ -1,27 +1,47 @@
 //! The panels: each shows one aspect of the session and edits it.
 
 mod canvas;
+mod dock;
+mod inspector;
 mod messages;
+mod network;
+mod processors;
+mod properties;
 
-use egui_tiles::{Tiles, Tree};
+use egui_tiles::{Linear, LinearDir, TileId, Tiles, Tree};
+use rayloom_network::Address;
 
 use crate::session::Session;
+
+pub use dock::open;
 
 /// Which panel a tile holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Pane {
+    /// The processors that can be added.
+    Processors,
+    /// The network.
+    Network,
     /// The picture of the canvas, or of the first one.
     Canvas,
     /// What the user was told.
     Messages,
+    /// The properties of what is selected.
+    Properties,
+    /// What is on an outport, kept in sight.
+    Inspector(Address),
 }
 
 impl Pane {
     /// Text on the tab.
-    pub fn title(&self) -> &'static str {
+    pub fn title(&self) -> String {
         match self {
-            Self::Canvas => "Canvas",
-            Self::Messages => "Messages",
+            Self::Processors => "Processors".into(),
+            Self::Network => "Network".into(),
+            Self::Canvas => "Canvas".into(),
+            Self::Messages => "Messages".into(),
+            Self::Properties => "Properties".into(),
+            Self::Inspector(outport) => outport.to_string(),
         }
     }
 }
@@ -29,15 +49,27 @@ impl Pane {
 /// What the panels remember from frame to frame.
 #[derive(Default)]
 pub struct Panels {
+    processors: processors::ProcessorsPanel,
+    network: network::NetworkPanel,
     canvas: canvas::CanvasPanel,
+    inspectors: inspector::Inspectors,
+    properties: properties::PropertiesPanel,
 }
 
 impl Panels {
     /// Shows one panel.
     pub fn show(&mut self, pane: &Pane, ui: &mut egui::Ui, session: &mut Session) {
         match pane {
+            Pane::Processors => {
+                if let Some(type_id) = self.processors.show(ui, session) {
+                    self.network.add_in_the_middle(&type_id, ui.ctx(), session);
+                }
+            }
+            Pane::Network => self.network.show(ui, session),
             Pane::Canvas => self.canvas.show(ui, session),
             Pane::Messages => messages::show(ui, session),
+            Pane::Properties => self.properties.show(ui, session),
+            Pane::Inspector(outport) => self.inspectors.show(ui, session, outport),
         }
     }
 
@@ -47,11 +79,22 @@ impl Panels {
     }
 }
 
-/// The layout that a new user meets.
+/// The layout that a new user meets: what there is on the left, how it is wired in the middle, what it shows on the right.
 pub fn default_layout() -> Tree<Pane> {
     let mut tiles = Tiles::default();
-    let canvas = tiles.insert_pane(Pane::Canvas);
-    let messages = tiles.insert_pane(Pane::Messages);
-    let root = tiles.insert_vertical_tile(vec![canvas, messages]);
+    let [processors, network, canvas, messages] =
+        [Pane::Processors, Pane::Network, Pane::Canvas, Pane::Messages].map(|pane| tiles.insert_pane(pane));
+    let columns = [(processors, 0.15), (network, 0.5), (canvas, 0.35)];
+    let columns = share(&mut tiles, LinearDir::Horizontal, &columns);
+    let root = share(&mut tiles, LinearDir::Vertical, &[(columns, 0.85), (messages, 0.15)]);
     Tree::new("panels", root, tiles)
+}
+
+/// Puts tiles side by side or over one another, each with its share of the space.
+fn share(tiles: &mut Tiles<Pane>, direction: LinearDir, parts: &[(TileId, f32)]) -> TileId {
+    let mut linear = Linear::new(direction, parts.iter().map(|(tile, _)| *tile).collect());
+    for (tile, part) in parts {
+        linear.shares.set_share(*tile, *part);
+    }
+    tiles.insert_container(linear)
 }

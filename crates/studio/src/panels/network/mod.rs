@@ -1,0 +1,333 @@
+//! The node canvas: shows the network, and edits it.
+
+mod action;
+mod arrange;
+mod drag;
+mod geometry;
+mod menus;
+mod node;
+mod scene;
+mod state;
+
+use std::collections::{BTreeSet, HashSet};
+
+use egui::{DragAndDrop, Event, Key, Modifiers, Pos2, Rect, Response, Ui};
+use egui_graph::{Graph, View};
+use rayloom_network::{Connection, EditError};
+
+use crate::catalog::NewProcessor;
+use crate::inspect;
+use crate::palette::Palette;
+use crate::session::Session;
+use crate::wiring::End;
+use action::Action;
+use drag::{Drag, Target};
+use geometry::Geometry;
+use menus::LooseEnd;
+use scene::{Resting, Scene, node_id};
+
+/// What the canvas remembers from frame to frame.
+pub struct NetworkPanel {
+    view: View,
+    /// Revision of the document whose positions `view` holds.
+    synced: u64,
+    /// Whether to bring everything into view.
+    fit: bool,
+    geometry: Geometry,
+    /// Selected wires.
+    wires: BTreeSet<Connection>,
+    drag: Option<Drag>,
+    loose_end: Option<LooseEnd>,
+    /// Where the menu of the empty canvas was opened.
+    menu_at: Pos2,
+    palette: Palette,
+    /// Whether the last click was here, so that keys are meant for the canvas.
+    attentive: bool,
+}
+
+impl Default for NetworkPanel {
+    fn default() -> Self {
+        Self {
+            view: View::default(),
+            synced: 0,
+            fit: true,
+            geometry: Geometry::default(),
+            wires: BTreeSet::new(),
+            drag: None,
+            loose_end: None,
+            menu_at: Pos2::ZERO,
+            palette: Palette::default(),
+            attentive: true,
+        }
+    }
+}
+
+impl NetworkPanel {
+    /// Shows the network and lets the user edit it.
+    pub fn show(&mut self, ui: &mut Ui, session: &mut Session) {
+        let area = ui.available_rect_before_wrap();
+        let mut actions = Vec::new();
+        self.notice(ui, area);
+        self.keys(ui, &mut actions);
+        self.sync(session);
+        self.fit_view(ui.ctx(), session, area);
+        let pointer = ui.input(|input| input.pointer.latest_pos());
+        let on_canvas = pointer.and_then(|at| self.geometry.on_canvas(at));
+        let target = self.drag.as_ref().zip(on_canvas).map(|(drag, at)| drag.target(&self.geometry, at));
+        let deleting = ui.input(|input| input.key_pressed(Key::Delete) || input.key_pressed(Key::Backspace));
+
+        let mut scene = Scene::new(session, &self.wires);
+        scene.drag = self.drag.as_ref();
+        scene.target = target.as_ref();
+        let loaded = DragAndDrop::has_payload_of_type::<NewProcessor>(ui.ctx());
+        scene.under_load =
+            on_canvas.filter(|_| loaded).and_then(|at| self.geometry.wire_at(session.network(), at).cloned());
+        scene.geometry.area = area;
+        let selected: HashSet<_> = session.selection.iter().map(|id| node_id(id)).collect();
+        let graph = Graph::new("network").zoom_range(0.1..=3.0).dot_grid_step(24.0).selected_nodes(selected);
+        let shown = graph.show(&mut self.view, ui, |ui, show| {
+            scene.begin(ui);
+            scene.welcome(ui);
+            show.nodes(ui, |context, ui| scene.nodes(context, ui)).edges(ui, |context, ui| scene.wires(context, ui));
+        });
+        let Scene { geometry, actions: done, resting, .. } = scene;
+        actions.extend(done);
+        self.geometry = geometry;
+
+        if shown.nodes_moved {
+            self.keep_positions(session);
+        }
+        // The library forgets selected nodes on Delete; here that key may be meant for another panel.
+        if let Some(nodes) = shown.selection_changed.filter(|_| !deleting) {
+            let ids = session.network().processors().map(|p| p.id().to_owned());
+            session.selection = ids.filter(|id| nodes.contains(&node_id(id))).collect();
+        }
+        self.canvas_menu(&shown.response, session, &mut actions);
+        self.let_go(ui, target, &mut actions);
+        self.drops(ui, session, &mut actions);
+        self.choose(ui, session, &mut actions);
+        self.tooltips(ui, session, resting);
+        self.buttons(ui, area, &mut actions);
+        for action in actions {
+            self.apply(action, ui.ctx(), session);
+        }
+    }
+
+    /// Adds a processor in the middle of what is visible.
+    pub fn add_in_the_middle(&mut self, type_id: &str, context: &egui::Context, session: &mut Session) {
+        self.apply(Action::Add(type_id.to_owned(), self.geometry.center()), context, session);
+    }
+
+    /// Notices whether keys are meant for the canvas: they are after a click on it.
+    fn notice(&mut self, ui: &Ui, area: Rect) {
+        let pressed = ui.input(|input| input.pointer.any_pressed().then(|| input.pointer.interact_pos()).flatten());
+        if let Some(at) = pressed {
+            self.attentive = area.contains(at);
+        }
+    }
+
+    fn keys(&mut self, ui: &Ui, actions: &mut Vec<Action>) {
+        let context = ui.ctx();
+        if context.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::P)) {
+            actions.push(Action::Palette);
+        }
+        if !self.attentive || context.egui_wants_keyboard_input() || self.palette.is_open() {
+            return;
+        }
+        let at = self.place(ui);
+        context.input_mut(|input| {
+            let mut key = |modifiers, key, action| {
+                if input.consume_key(modifiers, key) {
+                    actions.push(action);
+                }
+            };
+            for delete in [Key::Delete, Key::Backspace] {
+                key(Modifiers::SHIFT, delete, Action::Delete { reconnect: true });
+                key(Modifiers::NONE, delete, Action::Delete { reconnect: false });
+            }
+            key(Modifiers::COMMAND, Key::D, Action::Duplicate);
+            key(Modifiers::COMMAND, Key::A, Action::SelectAll);
+            key(Modifiers::NONE, Key::Space, Action::Palette);
+            key(Modifiers::NONE, Key::F, Action::Fit);
+            key(Modifiers::NONE, Key::L, Action::Arrange);
+            for event in &input.events {
+                match event {
+                    Event::Copy => actions.push(Action::Copy),
+                    Event::Cut => actions.extend([Action::Copy, Action::Delete { reconnect: false }]),
+                    Event::Paste(text) => actions.push(Action::Paste(text.clone(), at)),
+                    _ => {}
+                }
+            }
+        });
+    }
+
+    /// Where something new goes: where the pointer is, or in the middle of what is visible.
+    fn place(&self, ui: &Ui) -> Pos2 {
+        let pointer = ui.input(|input| input.pointer.latest_pos());
+        pointer.and_then(|at| self.geometry.on_canvas(at)).unwrap_or_else(|| self.geometry.center())
+    }
+
+    /// Takes over what changed in the document: positions, and what is gone from it.
+    fn sync(&mut self, session: &mut Session) {
+        let revision = session.document.revision();
+        if self.synced == revision {
+            return;
+        }
+        self.synced = revision;
+        let network = session.document.network();
+        self.view.layout =
+            network.processors().map(|p| (node_id(p.id()), Pos2::from(p.position().map(|x| x as f32)))).collect();
+        session.selection.retain(|id| network.processor(id).is_some());
+        self.wires.retain(|wire| network.connections().contains(wire));
+    }
+
+    /// Stores where nodes were dragged to; one step of the history.
+    fn keep_positions(&mut self, session: &mut Session) {
+        let layout = &self.view.layout;
+        let moved: Vec<(String, [f64; 2])> = session
+            .network()
+            .processors()
+            .filter_map(|processor| {
+                let at = layout.get(&node_id(processor.id()))?;
+                let at = [f64::from(at.x.round()), f64::from(at.y.round())];
+                (at != processor.position().map(f64::round)).then(|| (processor.id().to_owned(), at))
+            })
+            .collect();
+        session.edit("move", |network| -> Result<(), EditError> {
+            moved.iter().try_for_each(|(id, at)| network.set_position(id, *at))
+        });
+    }
+
+    fn canvas_menu(&mut self, response: &Response, session: &Session, actions: &mut Vec<Action>) {
+        if response.secondary_clicked()
+            && let Some(at) = response.interact_pointer_pos()
+        {
+            self.menu_at = at;
+        }
+        response.context_menu(|ui| menus::canvas(ui, session, self.menu_at, actions));
+    }
+
+    /// Lets go of the wire in the user's hand; before, says why it would be refused.
+    fn let_go(&mut self, ui: &Ui, target: Option<Target>, actions: &mut Vec<Action>) {
+        if ui.input(|input| input.key_pressed(Key::Escape)) {
+            self.drag = None;
+        }
+        let Some(drag) = &self.drag else { return };
+        if let Some(Target::Refuse(_, reason)) = &target {
+            egui::Tooltip::always_open(
+                ui.ctx().clone(),
+                ui.layer_id(),
+                ui.id().with("refusal"),
+                egui::PopupAnchor::Pointer,
+            )
+            .gap(14.0)
+            .show(|ui| ui.colored_label(crate::theme::ERROR, reason));
+        }
+        if !ui.input(|input| input.pointer.primary_released()) {
+            return;
+        }
+        let window = ui.input(|input| input.pointer.latest_pos()).unwrap_or_default();
+        match (target, &drag.held) {
+            (Some(Target::Connect(end)), held) => {
+                actions.extend(drag.anchor.wire(&end).map(|wire| Action::Connect(wire, held.clone())));
+            }
+            (Some(Target::Refuse(_, reason)), _) => actions.push(Action::Refuse(reason)),
+            (Some(Target::Nowhere), Some(wire)) => actions.push(Action::Cut(wire.clone())),
+            (Some(Target::Nowhere), None) => {
+                let at = self.geometry.to_window.inverse() * window;
+                self.loose_end = Some(LooseEnd { end: drag.anchor.clone(), at, window });
+            }
+            (Some(Target::Back) | None, _) => {}
+        }
+        self.drag = None;
+    }
+
+    /// What was dragged here from the list of processors or from the desktop.
+    fn drops(&self, ui: &Ui, session: &Session, actions: &mut Vec<Action>) {
+        let at = ui.input(|input| input.pointer.latest_pos()).and_then(|at| self.geometry.on_canvas(at));
+        if let Some(at) = at
+            && ui.input(|input| input.pointer.primary_released())
+            && let Some(new) = DragAndDrop::take_payload::<NewProcessor>(ui.ctx())
+        {
+            let type_id = new.0.clone();
+            actions.push(match self.geometry.wire_at(session.network(), at) {
+                Some(wire) => Action::Insert(type_id, wire.clone(), at),
+                None => Action::Add(type_id, at),
+            });
+        }
+        let files = ui.input(|input| input.raw.dropped_files.clone());
+        for file in files {
+            let at = at.unwrap_or_else(|| self.geometry.center());
+            actions.push(Action::AddFile(file.path().to_string_lossy().into_owned(), at));
+        }
+    }
+
+    /// The menu at a loose wire, and the palette.
+    fn choose(&mut self, ui: &mut Ui, session: &Session, actions: &mut Vec<Action>) {
+        if let Some(menu) = self.loose_end.take() {
+            self.loose_end = menus::loose_end(ui, session, menu, actions);
+        }
+        if let Some(type_id) = self.palette.show(ui.ctx(), &session.registry) {
+            actions.push(Action::Add(type_id, self.place(ui)));
+        }
+    }
+
+    /// What resting on a node, a socket or a wire shows.
+    fn tooltips(&self, ui: &Ui, session: &mut Session, resting: Vec<(Response, Resting)>) {
+        if self.drag.is_some() || self.loose_end.is_some() || ui.input(|input| input.pointer.any_down()) {
+            return;
+        }
+        for (response, what) in resting {
+            match what {
+                Resting::Node(id) => drop(response.on_hover_ui(|ui| state::tooltip(ui, session, &id))),
+                Resting::Socket(end) => drop(response.on_hover_ui_at_pointer(|ui| socket_tooltip(ui, session, &end))),
+                Resting::Wire(wire) => {
+                    response.on_hover_ui_at_pointer(|ui| inspect::hover(ui, session, &wire.from));
+                }
+            }
+        }
+    }
+
+    fn buttons(&self, ui: &Ui, area: Rect, actions: &mut Vec<Action>) {
+        let id = ui.id().with("buttons");
+        let place = area.right_bottom() - egui::vec2(10.0, 10.0);
+        egui::Area::new(id).order(egui::Order::Middle).pivot(egui::Align2::RIGHT_BOTTOM).fixed_pos(place).show(
+            ui.ctx(),
+            |ui| {
+                ui.horizontal(|ui| {
+                    let mut button = |text: &str, help: &str, action: Action| {
+                        if ui.small_button(text).on_hover_text(help).clicked() {
+                            actions.push(action);
+                        }
+                    };
+                    button("Add", "Search a processor to add (Space, Ctrl+P)", Action::Palette);
+                    button("Arrange", "Lay all processors out along the wires (L)", Action::Arrange);
+                    button("Show all", "Bring the whole network into view (F)", Action::Fit);
+                });
+            },
+        );
+    }
+}
+
+/// What resting on a socket shows: what it is for, and what is there.
+fn socket_tooltip(ui: &mut Ui, session: &mut Session, end: &End) {
+    ui.set_max_width(360.0);
+    let address = end.address();
+    let declaration = session.network().processor(&address.processor).and_then(|p| p.declaration());
+    let (label, help) = match end {
+        End::Inport(_) => declaration.and_then(|d| d.inport(&address.item)).map(|port| (&port.label, &port.help)),
+        End::Outport(_) => declaration.and_then(|d| d.outport(&address.item)).map(|port| (&port.label, &port.help)),
+    }
+    .map(|(label, help)| (label.clone(), help.clone()))
+    .unwrap_or_default();
+    let types = end.types(session.network()).iter().map(ToString::to_string).collect::<Vec<_>>().join(" or ");
+    ui.horizontal(|ui| {
+        ui.strong(label);
+        ui.weak(format!("{address}, {types}"));
+    });
+    ui.label(help);
+    if let Some(shown) = action::shown_at(session.network(), end) {
+        ui.separator();
+        inspect::hover(ui, session, &shown);
+    }
+}

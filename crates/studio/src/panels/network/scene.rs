@@ -1,0 +1,314 @@
+//! Draws the network with the library's widgets and collects what the user did. Nothing else knows the library's nodes.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use egui::{Color32, Pos2, Response, Shape, Stroke, Ui, Vec2, WidgetInfo, WidgetType};
+use egui_graph::edge::Edge;
+use egui_graph::node::{EdgeEvent, Node, NodeId};
+use egui_graph::{EdgesCtx, NodesCtx, SocketKind};
+use rayloom_network::{Address, Connection, Network, PortType, Processor};
+
+use super::action::Action;
+use super::drag::{Drag, Target};
+use super::geometry::{Geometry, WIRE};
+use super::menus;
+use super::node::{self, Card, Light, Port};
+use super::state::{State, cost, short};
+use crate::session::Session;
+use crate::theme;
+use crate::wiring::End;
+
+/// The accent of ports of processors whose type is not known.
+const UNKNOWN: Color32 = Color32::from_gray(0x80);
+
+/// What the pointer may rest on.
+pub enum Resting {
+    /// A node.
+    Node(String),
+    /// A socket.
+    Socket(End),
+    /// A wire, by the outport whose data flows there.
+    Wire(Connection),
+}
+
+/// The ids of a processor's inports and outports, as the sockets are numbered.
+#[derive(Default)]
+struct Ports<'a> {
+    inports: Vec<&'a str>,
+    outports: Vec<&'a str>,
+}
+
+/// One frame of the canvas.
+pub struct Scene<'a> {
+    session: &'a Session,
+    ports: BTreeMap<&'a str, Ports<'a>>,
+    fed: BTreeSet<&'a Address>,
+    feeding: BTreeSet<&'a Address>,
+    /// A wire in the user's hand.
+    pub drag: Option<&'a Drag>,
+    /// What that wire would do.
+    pub target: Option<&'a Target>,
+    /// Selected wires.
+    pub selected: &'a BTreeSet<Connection>,
+    /// A wire that something dragged would be put into.
+    pub under_load: Option<Connection>,
+    /// Where things are.
+    pub geometry: Geometry,
+    /// What the user did.
+    pub actions: Vec<Action>,
+    /// What the pointer may rest on, for tooltips.
+    pub resting: Vec<(Response, Resting)>,
+}
+
+/// The library's id of a processor's node.
+pub fn node_id(processor: &str) -> NodeId {
+    NodeId::new(processor)
+}
+
+impl<'a> Scene<'a> {
+    /// A frame of a session's network.
+    pub fn new(session: &'a Session, selected: &'a BTreeSet<Connection>) -> Self {
+        let network = session.network();
+        Self {
+            session,
+            ports: network.processors().map(|p| (p.id(), ports(network, p))).collect(),
+            fed: network.connections().iter().map(|wire| &wire.to).collect(),
+            feeding: network.connections().iter().map(|wire| &wire.from).collect(),
+            drag: None,
+            target: None,
+            selected,
+            under_load: None,
+            geometry: Geometry::default(),
+            actions: Vec::new(),
+            resting: Vec::new(),
+        }
+    }
+
+    /// To be called first: learns how the canvas lies in the window, and tells assistive technology, which the scene of egui
+    /// leaves out.
+    pub fn begin(&mut self, ui: &Ui) {
+        let Some(transform) = ui.ctx().layer_transform_to_global(ui.layer_id()) else { return };
+        self.geometry.to_window = transform;
+        let scale = f64::from(transform.scaling);
+        let [x, y] = [transform.translation.x.into(), transform.translation.y.into()];
+        ui.ctx().accesskit_node_builder(ui.unique_id(), |node| {
+            node.set_transform(egui::accesskit::Affine::new([scale, 0.0, 0.0, scale, x, y]));
+        });
+    }
+
+    /// Draws the nodes.
+    pub fn nodes(&mut self, context: &mut NodesCtx<'_>, ui: &mut Ui) {
+        for processor in self.session.network().processors() {
+            self.node(processor, context, ui);
+        }
+    }
+
+    fn node(&mut self, processor: &'a Processor, context: &mut NodesCtx<'_>, ui: &mut Ui) {
+        let id = processor.id();
+        let card = self.card(processor);
+        let node = Node::from_id(node_id(id))
+            .inputs(card.inports.len())
+            .outputs(card.outports.len())
+            .socket_color(Color32::TRANSPARENT)
+            .max_width(600.0);
+        let response = node.show_or_cull(context, ui, |node| {
+            let frame = node::frame(node.style(), &card.state, node.interaction());
+            node.framed_with(frame, |ui, sockets| card.show(ui, sockets))
+        });
+        let label = format!("processor {id} ({}): {}", card.kind, card.state.word());
+        response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, &label));
+        self.geometry.nodes.insert(id.to_owned(), response.rect);
+        for (index, socket) in response.sockets().inputs() {
+            self.socket(ui, &response, (id, index, SocketKind::Input), socket, &card.inports[index]);
+        }
+        for (index, socket) in response.sockets().outputs() {
+            self.socket(ui, &response, (id, index, SocketKind::Output), socket, &card.outports[index]);
+        }
+        if let Some(EdgeEvent::Started { kind, index }) = response.edge_event() {
+            self.actions.extend(self.end(id, kind, index).map(Action::Hold));
+        }
+        if response.secondary_clicked() && !self.session.selection.contains(id) {
+            self.actions.push(Action::Select([id.to_owned()].into()));
+        }
+        response.context_menu(|ui| menus::node(ui, self.session, id, &mut self.actions));
+        self.resting.push(((*response).clone(), Resting::Node(id.to_owned())));
+    }
+
+    fn socket(
+        &mut self,
+        ui: &Ui,
+        node: &Response,
+        (id, index, kind): (&str, usize, SocketKind),
+        socket: &Response,
+        port: &Port,
+    ) {
+        let Some(end) = self.end(id, kind, index) else { return };
+        node::socket(ui, node, socket, port, if kind == SocketKind::Input { -1.0 } else { 1.0 });
+        let side = if kind == SocketKind::Input { "input" } else { "output" };
+        socket.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("{side} {}", end.address())));
+        self.geometry.sockets.insert(end.clone(), socket.rect.center());
+        self.resting.push((socket.clone(), Resting::Socket(end)));
+    }
+
+    fn end(&self, id: &str, kind: SocketKind, index: usize) -> Option<End> {
+        let ports = self.ports.get(id)?;
+        match kind {
+            SocketKind::Input => Some(End::Inport(Address::new(id, *ports.inports.get(index)?))),
+            SocketKind::Output => Some(End::Outport(Address::new(id, *ports.outports.get(index)?))),
+        }
+    }
+
+    fn card(&self, processor: &'a Processor) -> Card {
+        let id = processor.id();
+        let ports = &self.ports[id];
+        let declaration = processor.declaration();
+        let inport = |port: &&str| {
+            let end = End::Inport(Address::new(id, *port));
+            let inport = declaration.and_then(|d| d.inport(port));
+            Port {
+                label: inport.map_or((*port).to_owned(), |port| port.label.clone()),
+                color: color(inport.and_then(|port| port.accepts.first().copied())),
+                connected: self.fed.contains(end.address()),
+                optional: inport.is_none_or(|port| port.optional),
+                light: self.light(&end),
+            }
+        };
+        let outport = |port: &&str| {
+            let end = End::Outport(Address::new(id, *port));
+            let outport = declaration.and_then(|d| d.outport(port));
+            Port {
+                label: outport.map_or((*port).to_owned(), |port| port.label.clone()),
+                color: color(outport.map(|port| port.port_type)),
+                connected: self.feeding.contains(end.address()),
+                optional: false,
+                light: self.light(&end),
+            }
+        };
+        let inports: Vec<Port> = ports.inports.iter().map(inport).collect();
+        let open = inports.iter().any(|port| !port.optional && !port.connected);
+        let run = self.session.engine.results.runs.get(id);
+        Card {
+            title: processor.label().unwrap_or(id).to_owned(),
+            kind: declaration.map_or(processor.type_id(), |d| d.label.as_str()).to_owned(),
+            state: State::of(self.session, id, open),
+            time: run.map(|run| short(cost(run))).unwrap_or_default(),
+            inports,
+            outports: ports.outports.iter().map(outport).collect(),
+        }
+    }
+
+    fn light(&self, end: &End) -> Light {
+        let Some(drag) = self.drag else { return Light::Normal };
+        match self.target {
+            Some(Target::Connect(chosen)) if chosen == end => Light::Chosen,
+            _ if drag.anchor == *end => Light::Chosen,
+            _ if drag.fits(end) => Light::Fits,
+            _ => Light::Dim,
+        }
+    }
+
+    /// Draws the wires, and the one in the user's hand.
+    pub fn wires(&mut self, context: &mut EdgesCtx, ui: &mut Ui) {
+        for wire in self.session.network().connections() {
+            self.wire(wire, context, ui);
+        }
+        self.loose_wire(ui);
+    }
+
+    fn wire(&mut self, wire: &'a Connection, context: &mut EdgesCtx, ui: &mut Ui) {
+        let Some(places) = self.places(wire) else { return };
+        let color = self.wire_color(wire);
+        let held = self.drag.is_some_and(|drag| drag.held.as_ref() == Some(wire));
+        let loaded = self.under_load.as_ref() == Some(wire);
+        let mut selected = self.selected.contains(wire);
+        let halo = ui.visuals().selection.stroke.color.gamma_multiply(0.55);
+        let edge = Edge::new(places.0, places.1, &mut selected).shape(WIRE).show_with(context, ui, |ui, paint| {
+            if held {
+                return;
+            }
+            if paint.selected || loaded {
+                ui.painter().add(Shape::line(paint.points.to_vec(), Stroke::new(7.0, halo)));
+            }
+            let width = if paint.hovered || loaded { 4.0 } else { 2.5 };
+            ui.painter().add(Shape::line(paint.points.to_vec(), Stroke::new(width, color)));
+        });
+        edge.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("wire {wire}")));
+        let changed = edge.changed();
+        let response: Response = edge.into();
+        if response.clicked() && ui.input(|input| input.modifiers.alt) {
+            self.actions.push(Action::Cut(wire.clone()));
+        } else if changed {
+            self.actions.push(Action::SelectWire(wire.clone(), selected));
+        }
+        response.context_menu(|ui| menus::wire(ui, self.session, wire, &self.geometry, &mut self.actions));
+        self.resting.push((response, Resting::Wire(wire.clone())));
+    }
+
+    fn places(&self, wire: &Connection) -> Option<((NodeId, usize), (NodeId, usize))> {
+        let outports = &self.ports.get(wire.from.processor.as_str())?.outports;
+        let inports = &self.ports.get(wire.to.processor.as_str())?.inports;
+        let output = outports.iter().position(|port| *port == wire.from.item)?;
+        let input = inports.iter().position(|port| *port == wire.to.item)?;
+        Some(((node_id(&wire.from.processor), output), (node_id(&wire.to.processor), input)))
+    }
+
+    fn wire_color(&self, wire: &Connection) -> Color32 {
+        let full = color(End::Outport(wire.from.clone()).types(self.session.network()).first().copied());
+        if self.drag.is_some() { full.gamma_multiply(0.35) } else { full.gamma_multiply(0.85) }
+    }
+
+    fn loose_wire(&self, ui: &Ui) {
+        let (Some(drag), Some(pointer)) = (self.drag, ui.input(|input| input.pointer.latest_pos())) else { return };
+        let Some(start) = self.geometry.sockets.get(&drag.anchor).copied() else { return };
+        let loose = self.geometry.to_window.inverse() * pointer;
+        let (end, color) = match self.target {
+            Some(Target::Connect(end)) => (self.place(end).unwrap_or(loose), theme::READY),
+            Some(Target::Refuse(..)) => (loose, theme::ERROR),
+            _ => (loose, color(drag.anchor.types(self.session.network()).first().copied())),
+        };
+        let path = match drag.anchor {
+            End::Outport(_) => Geometry::path(start, end),
+            End::Inport(_) => Geometry::path(end, start),
+        };
+        let points: Vec<Pos2> = path.flatten(5.0).collect();
+        ui.painter().add(Shape::line(points, Stroke::new(3.0, color)));
+        ui.painter().circle_filled(end, 4.0, color);
+    }
+
+    fn place(&self, end: &End) -> Option<Pos2> {
+        self.geometry.sockets.get(end).copied()
+    }
+
+    /// Says how to begin where there is nothing.
+    pub fn welcome(&self, ui: &Ui) {
+        if self.session.network().processors().next().is_some() {
+            return;
+        }
+        let lines = "Press Space to add a processor,\nor drag one here from the list.";
+        let (font, color) = (egui::FontId::proportional(15.0), ui.visuals().weak_text_color());
+        let galley = ui.painter().layout_job(egui::text::LayoutJob {
+            halign: egui::Align::Center,
+            ..egui::text::LayoutJob::simple(lines.to_owned(), font, color, f32::INFINITY)
+        });
+        let at = ui.clip_rect().center() - Vec2::new(0.0, 0.5 * galley.size().y);
+        ui.painter().galley(at, galley, color);
+    }
+}
+
+/// The accent of a port type.
+fn color(port_type: Option<PortType>) -> Color32 {
+    port_type.map_or(UNKNOWN, theme::port_color)
+}
+
+/// The ports of a processor; those of a placeholder as its connections name them.
+fn ports<'a>(network: &'a Network, processor: &'a Processor) -> Ports<'a> {
+    if let Some(declaration) = processor.declaration() {
+        return Ports {
+            inports: declaration.inports.iter().map(|port| port.id.as_str()).collect(),
+            outports: declaration.outports.iter().map(|port| port.id.as_str()).collect(),
+        };
+    }
+    let inports: BTreeSet<&str> = network.inputs(processor.id()).map(|wire| wire.to.item.as_str()).collect();
+    let outports: BTreeSet<&str> = network.outputs(processor.id()).map(|wire| wire.from.item.as_str()).collect();
+    Ports { inports: inports.into_iter().collect(), outports: outports.into_iter().collect() }
+}

@@ -1,0 +1,14 @@
+//! Edits of a network that take several steps of the model: what the node canvas offers as one.
+
+mod add;
+mod connect;
+mod copy;
+mod remove;
+
+pub use add::{add, add_connected, fits_into, insert, replace};
+pub use connect::{End, connect, fitting, re_plug, verdict};
+pub use copy::{copy, duplicate, paste};
+pub use remove::{remove, remove_and_reconnect};
+
+#[cfg(test)]
+mod tests;

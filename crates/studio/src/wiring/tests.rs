@@ -1,0 +1,185 @@
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::sync::Arc;
+
+use rayloom_network::{Connection, Network};
+use serde_json::json;
+
+use super::*;
+use crate::document::Document;
+
+/// source -> proxy -> view -> traversal -> canvas, the volume also into the traversal.
+fn chain() -> Network {
+    let mut network = Network::new(Arc::new(rayloom_processors::registry()));
+    for (type_id, id) in [
+        ("volume_generator", "source"),
+        ("cube_proxy", "proxy"),
+        ("entry_exit_points", "view"),
+        ("ray_traversal", "traversal"),
+        ("canvas", "canvas"),
+    ] {
+        network.add(type_id, id).expect("added");
+    }
+    for text in [
+        "source.volume -> proxy.volume",
+        "proxy.geometry -> view.geometry",
+        "source.volume -> traversal.volume",
+        "view.entry -> traversal.entry",
+        "view.exit -> traversal.exit",
+        "traversal.image -> canvas.image",
+    ] {
+        connect(&mut network, &wire(text)).expect("connected");
+    }
+    network
+}
+
+fn wire(text: &str) -> Connection {
+    let (from, to) = text.split_once(" -> ").expect("a wire");
+    Connection { from: from.parse().expect("an address"), to: to.parse().expect("an address") }
+}
+
+fn wires(network: &Network) -> Vec<String> {
+    network.connections().iter().map(ToString::to_string).collect()
+}
+
+fn set(ids: &[&str]) -> BTreeSet<String> {
+    ids.iter().map(|id| (*id).to_owned()).collect()
+}
+
+#[test]
+fn a_taken_inport_is_fed_anew_and_cycles_are_refused_all_the_same() {
+    let mut network = chain();
+    let id = add(&mut network, "volume_generator", [0.0, 0.0]).expect("added");
+    connect(&mut network, &wire(&format!("{id}.volume -> proxy.volume"))).expect("connected");
+    assert!(wires(&network).contains(&format!("{id}.volume -> proxy.volume")));
+    assert!(!wires(&network).contains(&"source.volume -> proxy.volume".to_owned()));
+    let end = |text: &str| End::Outport(text.parse().expect("an address"));
+    let entry = End::Inport("traversal.entry".parse().expect("an address"));
+    assert_eq!(verdict(&network, &end("view.entry"), &entry), Err("view.entry and traversal.entry are already connected.".into()));
+    let reason = verdict(&network, &end("proxy.geometry"), &entry).expect_err("another type");
+    assert!(reason.contains("proxy.geometry gives a geometry, but traversal.entry takes"), "{reason}");
+    add(&mut network, "background", [0.0, 0.0]).expect("added");
+    connect(&mut network, &wire("traversal.image -> background.front")).expect("connected");
+    add(&mut network, "compositor", [0.0, 0.0]).expect("added");
+    let own = verdict(&network, &end("background.image"), &End::Inport("background.front".parse().expect("address")));
+    assert!(own.expect_err("itself").contains("cannot feed itself"));
+}
+
+#[test]
+fn only_processors_that_fit_are_offered() {
+    let network = chain();
+    let registry = network.registry().clone();
+    let at = |end: End| fitting(&registry, &network, &end).iter().map(|fit| fit.declaration.to_owned()).collect::<Vec<_>>();
+    let after_proxy = at(End::Outport("proxy.geometry".parse().expect("an address")));
+    assert_eq!(after_proxy, ["entry_exit_points"]);
+    let before_proxy = at(End::Inport("proxy.volume".parse().expect("an address")));
+    assert!(before_proxy.contains(&"volume_source".to_owned()) && !before_proxy.contains(&"canvas".to_owned()));
+}
+
+#[test]
+fn a_processor_is_put_into_a_wire_or_refused_with_the_reason() {
+    let mut network = chain();
+    let image = wire("traversal.image -> canvas.image");
+    let id = insert(&mut network, "background", [1.0, 2.0], &image).expect("inserted");
+    assert!(wires(&network).contains(&format!("traversal.image -> {id}.front")));
+    assert!(wires(&network).contains(&format!("{id}.image -> canvas.image")));
+    let refused = insert(&mut network, "cube_proxy", [0.0, 0.0], &wire("view.entry -> traversal.entry"));
+    assert!(refused.expect_err("refused").to_string().contains("does not fit into view.entry -> traversal.entry"));
+    remove_and_reconnect(&mut network, &set(&[&id])).expect("removed");
+    assert!(wires(&network).contains(&image.to_string()));
+}
+
+#[test]
+fn replacing_keeps_what_fits() {
+    let mut network = chain();
+    network.set_position("source", [5.0, 6.0]).expect("moved");
+    replace(&mut network, "source", "volume_source").expect("replaced");
+    let source = network.processor("source").expect("there");
+    assert_eq!((source.type_id(), source.position()), ("volume_source", [5.0, 6.0]));
+    assert!(wires(&network).contains(&"source.volume -> proxy.volume".to_owned()));
+    assert_eq!(wires(&network).len(), 6);
+}
+
+#[test]
+fn copies_keep_values_and_the_wires_among_them() {
+    let mut network = chain();
+    network.set_from_json("traversal", "sampling_rate", &json!(3.0)).expect("set");
+    let text = copy(&network, &set(&["view", "traversal"]));
+    let pasted = paste(&mut network, &text, [100.0, 50.0]).expect("pasted");
+    assert_eq!(pasted, set(&["view_2", "traversal_2"]));
+    assert_eq!(network.value("traversal_2", "sampling_rate"), network.value("traversal", "sampling_rate"));
+    assert!(wires(&network).contains(&"view_2.entry -> traversal_2.entry".to_owned()));
+    let copied = duplicate(&mut network, &set(&["traversal_2"])).expect("duplicated");
+    assert_eq!(copied, set(&["traversal_3"]));
+    assert!(wires(&network).contains(&"view_2.entry -> traversal_3.entry".to_owned()));
+    let refused = paste(&mut network, "not a network", [0.0, 0.0]).expect_err("refused");
+    assert!(refused.to_string().starts_with("the clipboard holds no processors: "), "{refused}");
+}
+
+/// Numbers that look random and are the same in every run.
+struct Dice(u64);
+
+impl Dice {
+    fn below(&mut self, n: usize) -> usize {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        ((self.0 >> 33) as usize) % n.max(1)
+    }
+}
+
+fn random_edit(dice: &mut Dice, network: &mut Network) {
+    let ids: Vec<String> = network.processors().map(|p| p.id().to_owned()).collect();
+    let one = |dice: &mut Dice| ids.get(dice.below(ids.len())).cloned().unwrap_or_default();
+    let types: Vec<String> = network.registry().declarations().map(|d| d.id.clone()).collect();
+    let type_id = types[dice.below(types.len())].clone();
+    let connections = network.connections();
+    let wire = connections.get(dice.below(connections.len())).cloned();
+    let at = [dice.below(900) as f64, dice.below(600) as f64];
+    // What does not fit is refused, as it would be in the window, and leaves no step.
+    let _ = match (dice.below(9), wire) {
+        (0, _) => add(network, &type_id, at).map(drop).map_err(|e| e.to_string()),
+        (1, Some(wire)) => insert(network, &type_id, at, &wire).map(drop).map_err(|e| e.to_string()),
+        (2, _) => replace(network, &one(dice), &type_id).map_err(|e| e.to_string()),
+        (3, _) => duplicate(network, &set(&[&one(dice)])).map(drop).map_err(|e| e.to_string()),
+        (4, _) => remove(network, &set(&[&one(dice)]), &BTreeSet::new()).map_err(|e| e.to_string()),
+        (5, _) => remove_and_reconnect(network, &set(&[&one(dice)])).map_err(|e| e.to_string()),
+        (6, _) => network.set_position(&one(dice), at).map_err(|e| e.to_string()),
+        (7, _) => {
+            let text = copy(network, &set(&[&one(dice), &one(dice)]));
+            paste(network, &text, at).map(drop).map_err(|e| e.to_string())
+        }
+        (_, Some(wire)) => {
+            network.disconnect(&wire.from, &wire.to);
+            Ok(())
+        }
+        (_, None) => Ok(()),
+    };
+}
+
+#[test]
+fn fifty_random_edits_are_undone_and_redone_byte_for_byte() {
+    let registry = Arc::new(rayloom_processors::registry());
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../networks/brain.json");
+    for seed in 0..8 {
+        let (mut document, _) = Document::load(&shipped, &registry).expect("loaded");
+        let (mut dice, mut texts) = (Dice(seed), vec![document.text()]);
+        while texts.len() <= 50 {
+            let edit = |network: &mut Network| -> Result<(), String> {
+                random_edit(&mut dice, network);
+                Ok(())
+            };
+            document.edit("edit", edit).expect("edited");
+            if texts.last() != Some(&document.text()) {
+                texts.push(document.text());
+            }
+        }
+        for text in texts.iter().rev().skip(1) {
+            assert!(document.undo());
+            assert_eq!(document.text(), *text);
+        }
+        assert!(!document.undo() && !document.is_modified());
+        for text in &texts[1..] {
+            assert!(document.redo());
+            assert_eq!(document.text(), *text);
+        }
+    }
+}
