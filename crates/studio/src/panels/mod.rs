@@ -4,6 +4,7 @@ mod canvas;
 mod dock;
 mod inspector;
 mod messages;
+mod properties;
 mod network;
 mod processors;
 mod properties;
@@ -52,6 +53,7 @@ pub struct Panels {
     processors: processors::ProcessorsPanel,
     network: network::NetworkPanel,
     canvas: canvas::CanvasPanel,
+    properties: properties::PropertiesPanel,
     inspectors: inspector::Inspectors,
     properties: properties::PropertiesPanel,
 }
@@ -68,6 +70,7 @@ impl Panels {
             Pane::Network => self.network.show(ui, session),
             Pane::Canvas => self.canvas.show(ui, session),
             Pane::Messages => messages::show(ui, session),
+            Pane::Properties => self.properties.show(ui, session),
             Pane::Properties => self.properties.show(ui, session),
             Pane::Inspector(outport) => self.inspectors.show(ui, session, outport),
         }

@@ -1,0 +1,56 @@
+//! The menu of a property: reset, links with properties of other processors.
+
+use egui::Ui;
+use rayloom_network::{Address, Network, PropertyDecl};
+
+use super::action::Action;
+use super::editor::Surroundings;
+
+/// The menu behind a property's name.
+pub(super) fn menu(ui: &mut Ui, decl: &PropertyDecl, address: &Address, surroundings: &mut Surroundings<'_>) {
+    let changed = surroundings.properties.get(&decl.id) != Some(&decl.default);
+    if ui.add_enabled(changed, egui::Button::new("Back to the default")).clicked() {
+        surroundings.actions.push(Action::Reset(address.clone()));
+        ui.close();
+    }
+    if ui.button("Copy the address").on_hover_text(format!("{address}, as `--set` takes it")).clicked() {
+        ui.ctx().copy_text(address.to_string());
+        ui.close();
+    }
+    ui.separator();
+    for link in surroundings.network.links() {
+        if let Some(other) = link.other(address)
+            && ui.button(format!("Cut the link with {other}")).clicked()
+        {
+            surroundings.actions.push(Action::Unlink(address.clone(), other.clone()));
+            ui.close();
+        }
+    }
+    ui.menu_button("Link with", |ui| {
+        let fitting = fitting(surroundings.network, address, decl);
+        if fitting.is_empty() {
+            ui.weak("No other processor has a property that fits.");
+        }
+        for other in fitting {
+            if ui.button(other.to_string()).on_hover_text("Takes the value from there and stays equal to it").clicked() {
+                surroundings.actions.push(Action::Link(address.clone(), other));
+                ui.close();
+            }
+        }
+    });
+}
+
+/// Properties of other processors that this one may be linked with; those of the same name first.
+fn fitting(network: &Network, address: &Address, decl: &PropertyDecl) -> Vec<Address> {
+    let others = network.processors().filter(|processor| processor.id() != address.processor);
+    let mut found: Vec<Address> = others
+        .flat_map(|processor| {
+            let same_kind = |other: &PropertyDecl| std::mem::discriminant(&other.kind) == std::mem::discriminant(&decl.kind);
+            let decls = processor.property_decls().into_iter().filter(move |other| same_kind(other));
+            decls.map(|other| Address::new(processor.id(), other.id))
+        })
+        .filter(|other| network.can_link(other, address).is_ok())
+        .collect();
+    found.sort_by_key(|other| other.item != address.item);
+    found
+}
