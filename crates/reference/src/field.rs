@@ -80,7 +80,7 @@ impl Field {
         let p = index.clamp(DVec3::ZERO, self.last_center());
         match self.sampling {
             Sampling::Nearest => self.sample((p + 0.5).floor().as_ivec3().to_array(), clamp),
-            Sampling::Trilinear => self.weighted(p, |t| [0.0, 1.0 - t, t, 0.0], clamp),
+            Sampling::Trilinear => self.trilinear(p),
             Sampling::CatmullRom => self.weighted(p, catmull_rom, clamp),
             Sampling::BSplinePrefiltered => self.weighted(p, spline::weights, mirror),
         }
@@ -89,6 +89,20 @@ impl Field {
     /// Index coordinates of texture coordinates.
     pub fn texture_to_index(&self, texture: DVec3) -> DVec3 {
         texture * self.dims.as_dvec3() - 0.5
+    }
+
+    /// Between the eight voxels around `p`, which lies within the voxel centres.
+    fn trilinear(&self, p: DVec3) -> f64 {
+        // Positions are not negative: truncation is the floor, and an instruction where the floor is a call.
+        let [i, j, k] = p.to_array().map(|x| x as usize);
+        let t = p - DVec3::new(i as f64, j as f64, k as f64);
+        let [nx, ny, nz] = self.dims.to_array().map(|n| n as usize);
+        // At the last voxel centre there is no next voxel, and it has no weight.
+        let [x, y, z] = [usize::from(i + 1 < nx), nx * usize::from(j + 1 < ny), nx * ny * usize::from(k + 1 < nz)];
+        let first = (k * ny + j) * nx + i;
+        let along_x = |at: usize| self.samples[at] * (1.0 - t.x) + self.samples[at + x] * t.x;
+        let along_y = |at: usize| along_x(at) * (1.0 - t.y) + along_x(at + y) * t.y;
+        along_y(first) * (1.0 - t.z) + along_y(first + z) * t.z
     }
 
     /// Sum over the 4×4×4 neighbourhood of `p` under separable weights; voxels of no weight are not read.
@@ -112,11 +126,6 @@ impl Field {
     pub(crate) fn tap(&self, index: [i32; 3]) -> f64 {
         let wrap = if self.sampling == Sampling::BSplinePrefiltered { mirror } else { clamp };
         self.sample(index, wrap)
-    }
-
-    /// The voxels, x fastest, or their coefficients.
-    pub(crate) fn taps(&self) -> &[f64] {
-        &self.samples
     }
 
     fn sample(&self, index: [i32; 3], wrap: Wrap) -> f64 {

@@ -3,18 +3,21 @@
 //! Nothing here shares code with the GPU ray loop but the definitions of volumes and transfer functions; agreement between
 //! the two is evidence.
 //!
+//! - [`exact`] takes no samples: it is what the scene stands for, to about 1e-13. What a picture differs from it is its error.
 //! - [`same_samples`] takes the very samples the GPU takes, in float64: what remains between the two pictures is the
 //!   arithmetic of the GPU. Refining its rate shows the discretisation error.
 //! - [`closed_forms`] are scenes whose exact value is a formula: they judge both.
 //! - [`metrics`] measure how far two pictures are apart.
+//! - [`Cache`] keeps the pictures of either renderer on disk, by what they show.
 //!
 //! [`scene`], [`camera`], [`ray`], [`field`] and [`gradient`] say what is rendered and are independent of how the integral
-//! along a ray is taken. An integrator without samples belongs beside [`same_samples`] and stands on the same five.
+//! along a ray is taken: both renderers stand on the same five.
 //!
 //! # Spaces
 //! *World*: physical units of the volume. *Texture*: the volume box is `0..1` on each axis. *Index*: voxel centres at
 //! integers, `index = texture · dims - 0.5`.
 
+mod cache;
 pub mod camera;
 pub mod closed_forms;
 pub mod exact;
@@ -25,15 +28,18 @@ pub mod metrics;
 mod prepared;
 mod progress;
 pub mod ray;
+mod reference;
 pub mod same_samples;
 pub mod scene;
 pub mod shading;
 pub mod special;
 mod spline;
 
+pub use cache::{Cache, Cached, Source};
 pub use camera::{Camera, Projection};
 pub use image::{Image, MISS, Rectangle};
 pub use metrics::Comparison;
 pub use prepared::SurfaceHit;
 pub use progress::{Progress, RenderError, unattended};
+pub use reference::Reference;
 pub use scene::{Method, Refinement, Scene, SceneError};

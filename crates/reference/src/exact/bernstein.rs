@@ -196,8 +196,7 @@ mod tests {
     /// The polynomial `Σ p_k u^k`.
     fn from_powers(powers: &[f64]) -> Bernstein {
         let n = powers.len() - 1;
-        let coefficient =
-            |i: usize| (0..=i).map(|k| BINOMIALS[i][k] / BINOMIALS[n][k] * powers[k]).sum::<f64>();
+        let coefficient = |i: usize| (0..=i).map(|k| BINOMIALS[i][k] / BINOMIALS[n][k] * powers[k]).sum::<f64>();
         Bernstein::new(&(0..=n).map(coefficient).collect::<Vec<_>>())
     }
 
@@ -227,7 +226,9 @@ mod tests {
 
     #[test]
     fn every_root_of_a_product_is_found() {
-        for roots in [vec![0.5], vec![0.1, 0.100001, 0.9], vec![0.2, 0.4, 0.6], (1..10).map(|i| f64::from(i) / 10.0).collect()] {
+        for roots in
+            [vec![0.5], vec![0.1, 0.100001, 0.9], vec![0.2, 0.4, 0.6], (1..10).map(|i| f64::from(i) / 10.0).collect()]
+        {
             let found = crossings(&product(&roots), 0.0);
             assert_eq!(found.len(), roots.len(), "{roots:?} {found:?}");
             assert!(found.iter().zip(&roots).all(|(a, b)| (a - b).abs() < 1e-9), "{roots:?} {found:?}");

@@ -197,9 +197,11 @@ fn kernel(sampling: Sampling, Span { base, offsets: [from, to] }: Span) -> Kerne
         Sampling::Trilinear if from == 0.0 && to == 0.0 => {
             Kernel { first: base, count: 1, weights: [Bernstein::constant(1.0), none, none, none] }
         }
-        Sampling::Trilinear if from == to => {
-            Kernel { first: base, count: 2, weights: [Bernstein::constant(1.0 - to), Bernstein::constant(to), none, none] }
-        }
+        Sampling::Trilinear if from == to => Kernel {
+            first: base,
+            count: 2,
+            weights: [Bernstein::constant(1.0 - to), Bernstein::constant(to), none, none],
+        },
         Sampling::Trilinear => {
             let weights = [Bernstein::new(&[1.0 - from, 1.0 - to]), Bernstein::new(&[from, to]), none, none];
             Kernel { first: base, count: 2, weights }

@@ -4,6 +4,7 @@ use super::Renderer;
 use super::cells::{Cell, Cells, Cuts};
 use super::medium::Medium;
 use super::quadrature::{LIT_TOLERANCE, Quadrature, Stretch, TOLERANCE};
+use crate::gradient::GradientOperator;
 use crate::image::PixelResult;
 use crate::prepared::Passage;
 use rayloom_volume::{Knot, TransferFunction};
@@ -22,7 +23,9 @@ struct Piece {
 impl Renderer<'_> {
     pub(super) fn emission(&self, passage: &Passage) -> PixelResult {
         let scene = self.prepared.scene;
-        let cuts = if scene.shading.is_some() { Cuts::HalfVoxels } else { Cuts::Centers };
+        // Light bends where gradients do: one-sided differences turn to the other side half a voxel before the edge.
+        let turns = matches!(scene.gradient, GradientOperator::Forward | GradientOperator::Backward);
+        let cuts = if scene.shading.is_some() && turns { Cuts::HalfVoxels } else { Cuts::Centers };
         let mut total = Stretch::default();
         let mut first = None;
         let mut pieces = Vec::new();

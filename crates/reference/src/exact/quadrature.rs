@@ -125,9 +125,13 @@ mod tests {
 
     #[test]
     fn ramps_are_their_closed_form() {
-        for (start, slope, density, length) in
-            [(0.0, 1.0, 2.0, 1.0), (0.2, 0.6, 3.0, 1.3), (0.9, -0.6, 3.0, 1.3), (0.1, 1.0, 300.0, 2.0), (2.0, 0.3, 1e6, 1.0)]
-        {
+        for (start, slope, density, length) in [
+            (0.0, 1.0, 2.0, 1.0),
+            (0.2, 0.6, 3.0, 1.3),
+            (0.9, -0.6, 3.0, 1.3),
+            (0.1, 1.0, 300.0, 2.0),
+            (2.0, 0.3, 1e6, 1.0),
+        ] {
             let form = LinearRamp { start, slope, density, color_offset: 0.1, color_scale: 0.5, length };
             let found = integrate(|t| (density * (start + slope * t), 0.1 + 0.5 * (start + slope * t)), length);
             assert!((found.opacity() - form.opacity()).abs() < 1e-14, "{found:?} {form:?}");

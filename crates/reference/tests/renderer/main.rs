@@ -1,5 +1,6 @@
 //! The reference renderer against closed forms, geometry and invariances.
 
+mod cache;
 mod closed_forms;
 mod exact;
 mod exact_extremes;
