@@ -4,7 +4,6 @@ mod canvas;
 mod dock;
 mod inspector;
 mod messages;
-mod properties;
 mod network;
 mod processors;
 mod properties;
@@ -53,7 +52,6 @@ pub struct Panels {
     processors: processors::ProcessorsPanel,
     network: network::NetworkPanel,
     canvas: canvas::CanvasPanel,
-    properties: properties::PropertiesPanel,
     inspectors: inspector::Inspectors,
     properties: properties::PropertiesPanel,
 }
@@ -71,7 +69,6 @@ impl Panels {
             Pane::Canvas => self.canvas.show(ui, session),
             Pane::Messages => messages::show(ui, session),
             Pane::Properties => self.properties.show(ui, session),
-            Pane::Properties => self.properties.show(ui, session),
             Pane::Inspector(outport) => self.inspectors.show(ui, session, outport),
         }
     }
@@ -85,9 +82,11 @@ impl Panels {
 /// The layout that a new user meets: what there is on the left, how it is wired in the middle, what it shows on the right.
 pub fn default_layout() -> Tree<Pane> {
     let mut tiles = Tiles::default();
-    let [processors, network, canvas, messages] =
-        [Pane::Processors, Pane::Network, Pane::Canvas, Pane::Messages].map(|pane| tiles.insert_pane(pane));
-    let columns = [(processors, 0.15), (network, 0.5), (canvas, 0.35)];
+    let [processors, network, canvas, messages, properties] =
+        [Pane::Processors, Pane::Network, Pane::Canvas, Pane::Messages, Pane::Properties]
+            .map(|pane| tiles.insert_pane(pane));
+    let right = share(&mut tiles, LinearDir::Vertical, &[(canvas, 0.45), (properties, 0.55)]);
+    let columns = [(processors, 0.15), (network, 0.56), (right, 0.29)];
     let columns = share(&mut tiles, LinearDir::Horizontal, &columns);
     let root = share(&mut tiles, LinearDir::Vertical, &[(columns, 0.85), (messages, 0.15)]);
     Tree::new("panels", root, tiles)
