@@ -218,6 +218,10 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
         UiResponse::None
     }
 
+    fn is_tab_closable(&self, tiles: &egui_tiles::Tiles<Pane>, tile: egui_tiles::TileId) -> bool {
+        matches!(tiles.get_pane(&tile), Some(Pane::Inspector(_)))
+    }
+
     fn simplification_options(&self) -> egui_tiles::SimplificationOptions {
         egui_tiles::SimplificationOptions { all_panes_must_have_tabs: true, ..Default::default() }
     }
@@ -242,6 +246,9 @@ impl eframe::App for Studio {
             }
             Mode::Visualization => self.panels.visualization(ui, &mut self.session),
         });
+        for pane in std::mem::take(&mut self.session.to_open) {
+            panels::open(&mut self.tiles, pane);
+        }
         if was_interacting && !self.session.interacting {
             context.request_repaint();
         }

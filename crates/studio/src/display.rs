@@ -12,6 +12,7 @@ use rayloom_network::ImageKind;
 use rayloom_processors::Image;
 
 const SHADER: &str = include_str!("../../../shaders/image/display.wgsl");
+const DIFFERENCE: &str = include_str!("../../../shaders/image/difference.wgsl");
 
 /// Frames after which a picture that nobody asked for is freed.
 const KEPT_FRAMES: u64 = 30;
@@ -37,6 +38,8 @@ pub struct Look {
     pub range: Option<[f32; 2]>,
     /// Side of a square of the checkerboard behind translucent colours, pixels; 0: black.
     pub checker: u32,
+    /// Pixels are squares when the picture is enlarged, not smooth.
+    pub sharp: bool,
 }
 
 #[derive(Clone, Copy, Pod, Zeroable)]
@@ -60,12 +63,12 @@ impl Look {
     }
 }
 
-/// Identity of a shown picture: the image in memory and how it is looked at.
-type Key = (usize, [u32; 4]);
+/// Identity of a shown picture: the images in memory and how they are looked at.
+type Key = ([usize; 2], [u32; 5]);
 
 struct Shown {
-    /// Kept alive so that its address stays its own.
-    _image: Arc<Image>,
+    /// Kept alive so that their addresses stay their own.
+    _images: [Arc<Image>; 2],
     texture: Texture,
     id: TextureId,
     last_used: u64,
@@ -92,29 +95,59 @@ impl Display {
     /// The device has no room for it.
     pub fn picture(&mut self, image: &Arc<Image>, look: Look) -> Result<TextureId, GpuError> {
         let parameters = look.parameters(image.kind);
-        let bits = [parameters.range[0].to_bits(), parameters.range[1].to_bits(), parameters.show, parameters.checker];
-        let key = (Arc::as_ptr(image) as usize, bits);
+        let Parameters { range: [black, white], show, checker } = parameters;
+        let bits = [black.to_bits(), white.to_bits(), show, checker, look.sharp.into()];
+        // An image without depth is only asked for its colours; any texture will do in the other's place.
+        let depth = image.depth.as_ref().unwrap_or(&image.color);
+        let uniform = bytemuck::bytes_of(&parameters);
+        self.shown(([image, image], bits), look.sharp, SHADER, uniform, [&image.color, depth])
+    }
+
+    /// The picture of how much two images of one size differ, times a gain, for this frame.
+    ///
+    /// # Errors
+    /// The device has no room for it.
+    pub fn difference(&mut self, images: [&Arc<Image>; 2], gain: f32, sharp: bool) -> Result<TextureId, GpuError> {
+        let bits = [gain.to_bits(), u32::MAX, u32::MAX, u32::MAX, sharp.into()];
+        self.shown((images, bits), sharp, DIFFERENCE, bytemuck::bytes_of(&gain), images.map(|image| &image.color))
+    }
+
+    /// A picture that is there already, or is computed now.
+    fn shown(
+        &mut self,
+        (images, bits): ([&Arc<Image>; 2], [u32; 5]),
+        sharp: bool,
+        shader: &str,
+        parameters: &[u8],
+        inputs: [&Arc<Texture>; 2],
+    ) -> Result<TextureId, GpuError> {
+        let key = (images.map(|image| Arc::as_ptr(image) as usize), bits);
         if let Some(shown) = self.shown.get_mut(&key) {
             shown.last_used = self.frame;
             return Ok(shown.id);
         }
         let usage = TextureUsages::STORAGE_BINDING | TextureUsages::TEXTURE_BINDING;
-        let texture = self.gpu.texture_2d("picture", image.size(), TextureFormat::Rgba8Unorm, usage)?;
-        self.convert(image, parameters, &texture)?;
+        let texture = self.gpu.texture_2d("picture", images[0].size(), TextureFormat::Rgba8Unorm, usage)?;
+        self.convert(shader, parameters, inputs, &texture)?;
+        let filter = if sharp { wgpu::FilterMode::Nearest } else { wgpu::FilterMode::Linear };
         let mut renderer = self.renderer.renderer.write();
-        let id = renderer.register_native_texture(&self.gpu.device, &texture.view, wgpu::FilterMode::Linear);
-        self.shown.insert(key, Shown { _image: image.clone(), texture, id, last_used: self.frame });
+        let id = renderer.register_native_texture(&self.gpu.device, &texture.view, filter);
+        self.shown.insert(key, Shown { _images: images.map(Arc::clone), texture, id, last_used: self.frame });
         Ok(id)
     }
 
-    fn convert(&mut self, image: &Image, parameters: Parameters, result: &Texture) -> Result<(), GpuError> {
+    fn convert(
+        &mut self,
+        shader: &str,
+        parameters: &[u8],
+        [first, second]: [&Arc<Texture>; 2],
+        result: &Texture,
+    ) -> Result<(), GpuError> {
         let gpu = &self.gpu;
-        let pipeline = self.pipelines.compute(gpu, "display", SHADER, "main")?;
-        let uniform = gpu.uniform("display", &parameters)?;
-        // An image without depth is only asked for its colours; any texture will do in the other's place.
-        let depth = image.depth.as_ref().unwrap_or(&image.color);
+        let pipeline = self.pipelines.compute(gpu, "display", shader, "main")?;
+        let uniform = gpu.buffer("display", parameters, wgpu::BufferUsages::UNIFORM)?;
         gpu.guarded("display", || {
-            let views = [&image.color.view, &depth.view, &result.view].map(wgpu::BindingResource::TextureView);
+            let views = [&first.view, &second.view, &result.view].map(wgpu::BindingResource::TextureView);
             let resources = [uniform.as_entire_binding()].into_iter().chain(views);
             let entries: Vec<_> =
                 (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
@@ -125,7 +158,7 @@ impl Display {
             let mut pass = encoder.begin_compute_pass(&Default::default());
             pass.set_pipeline(&pipeline);
             pass.set_bind_group(0, &group, &[]);
-            let [width, height] = image.size().map(|pixels| pixels.div_ceil(8));
+            let [width, height] = result.size_2d().map(|pixels| pixels.div_ceil(8));
             pass.dispatch_workgroups(width, height, 1);
             drop(pass);
             gpu.queue.submit([encoder.finish()]);

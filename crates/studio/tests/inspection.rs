@@ -85,3 +85,16 @@ fn every_kind_of_data_is_shown_and_what_is_not_there_is_explained() {
     window::wait_for(&mut harness, "`volume` is not connected");
     assert!(harness.query_by_label_contains("being computed").is_none());
 }
+
+#[test]
+fn a_pinned_inspector_reads_the_pixel_under_the_pointer() {
+    let mut harness = window::studio(window::flagship());
+    harness.state_mut().session.to_open.push(rayloom_studio::Pane::Inspector(("view", "entry").into()));
+    harness.state_mut().session.to_open.push(rayloom_studio::Pane::Inspector(("traversal", "image").into()));
+    window::wait_for(&mut harness, "colours ·");
+    window::wait_for(&mut harness, "entry points ·");
+    let heading = harness.query_all_by_label_contains("Point at a pixel").last().expect("a hint").rect();
+    harness.hover_at(heading.left_top() + egui::vec2(200.0, -60.0));
+    window::wait_for(&mut harness, "alpha ");
+    window::keep_picture(&mut harness, "inspectors");
+}

@@ -76,7 +76,7 @@ fn small_looks(image: &Image, statistics: Option<&Statistics>) -> Vec<(&'static 
         looks.push(("alpha", Look { layer: Layer::Channel(3), ..Look::default() }));
     }
     if image.depth.is_some() {
-        let look = Look { layer: Layer::Depth, range: depth_range(statistics), checker: CHECKER };
+        let look = Look { layer: Layer::Depth, range: depth_range(statistics), checker: CHECKER, sharp: false };
         looks.push(("depth, near is bright", look));
     }
     looks
@@ -85,7 +85,7 @@ fn small_looks(image: &Image, statistics: Option<&Statistics>) -> Vec<(&'static 
 /// The depths shown bright and dark: those that occur.
 pub(crate) fn depth_range(statistics: Option<&Statistics>) -> Option<[f32; 2]> {
     // A little beyond the farthest, so that it still stands out from the background.
-    statistics?.depth.map(|depth| [depth.min, depth.max + 0.25 * (depth.max - depth.min).max(1e-6)])
+    statistics?.depth.map(|depth| [depth.min, depth.max + 0.1 * (depth.max - depth.min).max(1e-6)])
 }
 
 /// A picture of an image, fitted into a box; where it is.

@@ -4,10 +4,12 @@ mod digest;
 mod geometry;
 pub(crate) mod image;
 mod latest;
+mod probe;
 mod statistics;
 pub(crate) mod text;
 mod volume;
 
+pub use probe::{Pixel, Reading};
 pub use statistics::{ChannelStatistics, Statistics, statistics};
 
 use std::sync::{Arc, Mutex};
@@ -16,6 +18,7 @@ use rayloom_gpu::{GpuError, PipelineCache};
 use rayloom_network::{Address, Readiness, readiness};
 use rayloom_processors::{Data, Image, VolumeData};
 
+use crate::panels::Pane;
 use crate::session::Session;
 use crate::theme;
 use digest::Digest;
@@ -27,6 +30,7 @@ pub struct Inspection {
     pipelines: Arc<Mutex<PipelineCache>>,
     statistics: Latest<Address, Image, Result<Statistics, GpuError>>,
     digests: Latest<usize, VolumeData, Digest>,
+    readings: Latest<String, Pixel, Result<Reading, GpuError>>,
 }
 
 impl Inspection {
@@ -34,6 +38,7 @@ impl Inspection {
     pub fn end_frame(&mut self) {
         self.statistics.end_frame();
         self.digests.end_frame();
+        self.readings.end_frame();
     }
 }
 
@@ -50,6 +55,17 @@ impl Session {
         self.inspection.statistics.get(outport, image, context, compute)
     }
 
+    /// What a pixel holds: the newest reading for whoever asks, which may be of the pixel asked for before.
+    pub fn reading(
+        &mut self,
+        context: &egui::Context,
+        who: &str,
+        pixel: &Arc<Pixel>,
+    ) -> Option<Arc<Result<Reading, GpuError>>> {
+        let gpu = self.display.gpu().clone();
+        self.inspection.readings.get(&who.to_owned(), pixel, context, move |pixel| Reading::of(&gpu, &pixel))
+    }
+
     /// A volume in brief, once it has been looked at.
     fn digest(&mut self, context: &egui::Context, data: &Arc<VolumeData>) -> Option<Arc<Digest>> {
         let features = self.display.gpu().features;
@@ -58,11 +74,24 @@ impl Session {
     }
 }
 
-/// What flows from an outport, for a tooltip: live, and computed if it was not needed so far.
+/// What flows from an outport, for a tooltip: live, and computed if it was not needed so far. It can be pinned as a pane,
+/// by its button or the key P.
 pub fn hover(ui: &mut egui::Ui, session: &mut Session, outport: &Address) {
     session.watched.insert(outport.clone());
     ui.spacing_mut().item_spacing = egui::vec2(6.0, 4.0);
-    heading(ui, session, outport);
+    ui.horizontal(|ui| {
+        heading(ui, session, outport);
+        let by_key = ui.ctx().text_edit_focused();
+        let by_key = !by_key && ui.input(|input| input.key_pressed(egui::Key::P) && input.modifiers.is_none());
+        if ui.small_button("Pin (P)").on_hover_text("Keep this as a pane.").clicked() || by_key {
+            session.to_open.push(Pane::Inspector(outport.clone()));
+        }
+    });
+    show(ui, session, outport);
+}
+
+/// What flows from an outport, or why nothing does.
+pub(crate) fn show(ui: &mut egui::Ui, session: &mut Session, outport: &Address) {
     match session.engine.results.outputs.get(outport).cloned() {
         Some(data) => content(ui, session, outport, &data),
         None => absence(ui, session, outport),
@@ -78,7 +107,7 @@ fn content(ui: &mut egui::Ui, session: &mut Session, outport: &Address, data: &D
 }
 
 /// The address, in the colour of its type.
-fn heading(ui: &mut egui::Ui, session: &Session, outport: &Address) {
+pub(crate) fn heading(ui: &mut egui::Ui, session: &Session, outport: &Address) {
     let declared = session.network().processor(&outport.processor).and_then(|processor| processor.declaration());
     let port = declared.and_then(|declaration| declaration.outport(&outport.item));
     ui.horizontal(|ui| {

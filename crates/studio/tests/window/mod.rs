@@ -69,3 +69,8 @@ pub fn keep_picture<T>(harness: &mut Harness<'_, T>, name: &str) {
     std::fs::create_dir_all(&folder).expect("a folder");
     picture.save(folder.join(format!("{name}.png"))).expect("saved");
 }
+
+/// The flagship network in development mode.
+pub fn flagship() -> Options {
+    Options { network: Some(project("networks/brain.json")), ..Options::default() }
+}

@@ -1,0 +1,98 @@
+//! Where new panes go.
+
+use egui_tiles::{Container, LinearDir, Tile, TileId, Tiles, Tree};
+
+use super::Pane;
+
+/// Opens a pane, or brings it to the front if it is open. Inspectors lie side by side, everything else in tabs.
+pub fn open(tree: &mut Tree<Pane>, pane: Pane) {
+    if let Some(known) = tree.tiles.find_pane(&pane) {
+        tree.set_visible(known, true);
+        tree.make_active(|tile, _| tile == known);
+        return;
+    }
+    let neighbour = neighbour(tree, &pane);
+    let beside = matches!(pane, Pane::Inspector(_));
+    let new = tree.tiles.insert_pane(pane);
+    match neighbour.or(tree.root()) {
+        None => *tree = Tree::new(tree.id(), new, std::mem::take(&mut tree.tiles)),
+        Some(neighbour) if beside => place_beside(tree, neighbour, new),
+        Some(neighbour) => place_in_tabs(tree, neighbour, new),
+    }
+    tree.make_active(|tile, _| tile == new);
+}
+
+/// The pane that a new one belongs to: the newest inspector for an inspector, else the messages.
+fn neighbour(tree: &Tree<Pane>, pane: &Pane) -> Option<TileId> {
+    let find = |wanted: fn(&Pane) -> bool| {
+        let panes = tree.tiles.iter().filter_map(|(id, tile)| match tile {
+            Tile::Pane(pane) if wanted(pane) => Some(*id),
+            _ => None,
+        });
+        panes.max_by_key(|id| id.0)
+    };
+    let inspector = matches!(pane, Pane::Inspector(_)).then(|| find(|pane| matches!(pane, Pane::Inspector(_))));
+    inspector.flatten().or_else(|| find(|pane| matches!(pane, Pane::Messages)))
+}
+
+/// The tabs that hold a tile, or itself.
+fn tabs_of(tiles: &Tiles<Pane>, tile: TileId) -> TileId {
+    let parent = tiles.parent_of(tile);
+    parent.filter(|&parent| matches!(tiles.get_container(parent), Some(Container::Tabs(_)))).unwrap_or(tile)
+}
+
+fn place_in_tabs(tree: &mut Tree<Pane>, neighbour: TileId, new: TileId) {
+    let tabs = tabs_of(&tree.tiles, neighbour);
+    match tree.tiles.get_mut(tabs) {
+        Some(Tile::Container(container @ Container::Tabs(_))) => container.add_child(new),
+        _ => place_beside(tree, neighbour, new),
+    }
+}
+
+fn place_beside(tree: &mut Tree<Pane>, neighbour: TileId, new: TileId) {
+    let neighbour = tabs_of(&tree.tiles, neighbour);
+    let parent = tree.tiles.parent_of(neighbour);
+    if let Some(Tile::Container(Container::Linear(linear))) = parent.and_then(|parent| tree.tiles.get_mut(parent))
+        && linear.dir == LinearDir::Horizontal
+    {
+        linear.add_child(new);
+        return;
+    }
+    let row = tree.tiles.insert_horizontal_tile(vec![neighbour, new]);
+    match parent.and_then(|parent| tree.tiles.get_mut(parent)) {
+        Some(Tile::Container(container)) => {
+            // The parent has this child: it was found by it.
+            let _ = container.replace_child(neighbour, row);
+        }
+        _ => *tree = Tree::new(tree.id(), row, std::mem::take(&mut tree.tiles)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::panels::default_layout;
+
+    #[test]
+    fn every_opened_pane_can_be_reached_and_only_once() {
+        let mut tree = default_layout();
+        let panes =
+            ["a.image", "b.image", "c.image"].map(|address| Pane::Inspector(address.parse().expect("an address")));
+        for pane in panes.iter().chain(&panes).cloned().chain([Pane::Messages]) {
+            open(&mut tree, pane);
+            tree.simplify(&egui_tiles::SimplificationOptions { all_panes_must_have_tabs: true, ..Default::default() });
+        }
+        let mut reached = Vec::new();
+        let mut queue = vec![tree.root().expect("a root")];
+        while let Some(id) = queue.pop() {
+            match tree.tiles.get(id) {
+                Some(Tile::Pane(pane)) => reached.push(pane.clone()),
+                Some(Tile::Container(container)) => queue.extend(container.children()),
+                None => panic!("a tile that is nowhere"),
+            }
+        }
+        for pane in panes.iter().chain([&Pane::Canvas, &Pane::Messages]) {
+            assert_eq!(reached.iter().filter(|found| *found == pane).count(), 1, "{pane:?}");
+        }
+    }
+}
