@@ -7,7 +7,7 @@
 //! - [`same_samples`] takes the very samples the GPU takes, in float64: what remains between the two pictures is the
 //!   arithmetic of the GPU. Refining its rate shows the discretisation error.
 //! - [`closed_forms`] are scenes whose exact value is a formula: they judge both.
-//! - [`metrics`] measure how far two pictures are apart.
+//! - [`metrics`] measure how far two pictures are apart: as numbers, on a display, and by the surfaces they show.
 //! - [`Cache`] keeps the pictures of either renderer on disk, by what they show.
 //!
 //! [`scene`], [`camera`], [`ray`], [`field`] and [`gradient`] say what is rendered and are independent of how the integral
@@ -38,7 +38,7 @@ mod spline;
 pub use cache::{Cache, Cached, Source};
 pub use camera::{Camera, Projection};
 pub use image::{Image, MISS, Rectangle};
-pub use metrics::Comparison;
+pub use metrics::{Comparison, DisplayComparison, DisplayPicture, SurfaceComparison, SurfacePoint};
 pub use prepared::SurfaceHit;
 pub use progress::{Progress, RenderError, unattended};
 pub use reference::Reference;

@@ -1,4 +1,4 @@
-//! How far one picture is from another.
+//! Errors of linear pictures.
 //!
 //! Everything is measured on linear, premultiplied pixels `[r, g, b, a]`, before any tone curve. A difference that is not a
 //! number (either side not finite) counts as infinite, so that no bad pixel improves a mean.
@@ -46,6 +46,25 @@ pub enum CompareError {
     /// There is nothing to compare.
     #[error("The pictures cannot be compared: they have no pixels. Render at least one.")]
     Empty,
+    /// A picture has another number of pixels than its size asks for.
+    #[error("A picture of {} x {} pixels was given {found} of them.", size[0], size[1])]
+    PixelCount {
+        /// Width and height.
+        size: [u32; 2],
+        /// Pixels given.
+        found: usize,
+    },
+    /// The pictures differ in shape.
+    #[error(
+        "The pictures cannot be compared: one is {} x {} pixels, the reference {} x {}. Render both at the same size.",
+        found[0], found[1], expected[0], expected[1]
+    )]
+    DifferentShapes {
+        /// Width and height of the picture.
+        found: [u32; 2],
+        /// Width and height of the reference.
+        expected: [u32; 2],
+    },
 }
 
 /// Statistics of the absolute error of one quantity over all pixels.
@@ -69,14 +88,19 @@ impl ErrorStatistics {
         }
         errors.sort_unstable_by(f64::total_cmp);
         let count = errors.len() as f64;
-        let rank = (0.99 * count).ceil() as usize;
         Self {
             max: errors[errors.len() - 1],
             mean: errors.iter().sum::<f64>() / count,
             rmse: (errors.iter().map(|e| e * e).sum::<f64>() / count).sqrt(),
-            p99: errors[rank.clamp(1, errors.len()) - 1],
+            p99: nearest_rank(&errors, 0.99),
         }
     }
+}
+
+/// The smallest of some sorted numbers that a share of them does not exceed; there must be one number at least.
+pub(super) fn nearest_rank(sorted: &[f64], share: f64) -> f64 {
+    let rank = (share * sorted.len() as f64).ceil() as usize;
+    sorted[rank.clamp(1, sorted.len()) - 1]
 }
 
 /// The distance of a picture from a reference.
