@@ -64,7 +64,7 @@ fn another_snippet_brings_its_own_parameters() {
     assert!(harness.query_by_role_and_label(Role::Slider, "Ambient").is_some());
     harness.get_by_role_and_label(Role::ComboBox, "Shading").click();
     harness.run_steps(3);
-    harness.get_by_label("No shading").click();
+    harness.get_by_label("None").click();
     harness.run_steps(3);
     assert_eq!(value(&harness, "shading"), Some(Value::Text("none".into())));
     assert!(harness.query_by_role_and_label(Role::Slider, "Ambient").is_none());
