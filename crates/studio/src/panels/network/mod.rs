@@ -84,6 +84,8 @@ impl NetworkPanel {
             on_canvas.filter(|_| loaded).and_then(|at| self.geometry.wire_at(session.network(), at).cloned());
         scene.geometry.area = area;
         let selected: HashSet<_> = session.selection.iter().map(|id| node_id(id)).collect();
+        // The library fills the background with this.
+        ui.visuals_mut().widgets.noninteractive.bg_fill = ui.visuals().extreme_bg_color;
         let graph = Graph::new("network").zoom_range(0.1..=3.0).dot_grid_step(24.0).selected_nodes(selected);
         let shown = graph.show(&mut self.view, ui, |ui, show| {
             scene.begin(ui);

@@ -18,6 +18,8 @@ const FOOT: f32 = 6.0;
 const WIDTH: f32 = 150.0;
 /// Space between the border and the texts.
 const MARGIN: f32 = 14.0;
+/// Zoom below which a node shows its name only, large.
+const FAR: f32 = 0.7;
 /// Radius of a socket.
 const SOCKET: f32 = 5.0;
 
@@ -63,6 +65,8 @@ pub struct Card {
     pub inports: Vec<Port>,
     /// Its outports, from the top.
     pub outports: Vec<Port>,
+    /// Pixels of the window for a point of the canvas.
+    pub zoom: f32,
 }
 
 /// The border and filling of a node.
@@ -105,12 +109,25 @@ impl Card {
 
     fn head(&self, ui: &Ui, rect: Rect, texts: &Texts) {
         let painter = ui.painter();
-        let left = rect.left() + MARGIN;
-        painter.galley(Pos2::new(left, rect.top() + 6.0), texts.title.clone(), Color32::PLACEHOLDER);
-        painter.galley(Pos2::new(left, rect.top() + 22.0), texts.kind.clone(), Color32::PLACEHOLDER);
-        let right = rect.right() - MARGIN;
-        let time = Pos2::new(right - texts.time.size().x, rect.top() + 22.0);
-        painter.galley(time, texts.time.clone(), Color32::PLACEHOLDER);
+        let (left, right) = (rect.left() + MARGIN, rect.right() - MARGIN);
+        if self.zoom < FAR {
+            // From afar only the name can be read, if it is large.
+            let size = (11.0 / self.zoom).min(28.0);
+            let title = |size| {
+                let color = ui.visuals().strong_text_color();
+                painter.layout_no_wrap(self.title.clone(), FontId::proportional(size), color)
+            };
+            let large = title(size);
+            let room = right - left - 16.0;
+            let galley = if large.size().x > room { title(size * room / large.size().x) } else { large };
+            let top = rect.top() + 0.5 * (HEAD - galley.size().y);
+            painter.galley(Pos2::new(left, top), galley, Color32::PLACEHOLDER);
+        } else {
+            painter.galley(Pos2::new(left, rect.top() + 6.0), texts.title.clone(), Color32::PLACEHOLDER);
+            painter.galley(Pos2::new(left, rect.top() + 22.0), texts.kind.clone(), Color32::PLACEHOLDER);
+            let time = Pos2::new(right - texts.time.size().x, rect.top() + 22.0);
+            painter.galley(time, texts.time.clone(), Color32::PLACEHOLDER);
+        }
         let mark = Pos2::new(right - 4.0, rect.top() + 14.0);
         match &self.state {
             State::Running(part) => {

@@ -194,6 +194,7 @@ impl<'a> Scene<'a> {
             time: run.map(|run| short(cost(run))).unwrap_or_default(),
             inports,
             outports: ports.outports.iter().map(outport).collect(),
+            zoom: self.geometry.to_window.scaling,
         }
     }
 

@@ -1,0 +1,229 @@
+//! The node canvas, by mouse and keyboard, with the real evaluator.
+
+mod window;
+
+use egui::{Event, Key, Modifiers, Pos2, Vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use rayloom_studio::{Options, Studio};
+use window::{flagship, keep_picture, studio, wait_for};
+
+type Window = Harness<'static, Studio>;
+
+const SOURCE_TO_CANVAS: [&str; 6] = [
+    "volume_generator.volume -> cube_proxy.volume",
+    "cube_proxy.geometry -> entry_exit_points.geometry",
+    "volume_generator.volume -> ray_traversal.volume",
+    "entry_exit_points.entry -> ray_traversal.entry",
+    "entry_exit_points.exit -> ray_traversal.exit",
+    "ray_traversal.image -> canvas.image",
+];
+
+fn wires(window: &Window) -> Vec<String> {
+    window.state().session.network().connections().iter().map(ToString::to_string).collect()
+}
+
+fn text(window: &Window) -> String {
+    window.state().session.document.text()
+}
+
+fn key(window: &mut Window, modifiers: Modifiers, key: Key) {
+    window.key_press_modifiers(modifiers, key);
+    window.run_steps(4);
+}
+
+/// A point just outside of the node at a socket: pressed there, a wire begins; pressed on the node, the node moves.
+fn socket(window: &Window, label: &str) -> Pos2 {
+    let rect = window.get_by_label(label).rect();
+    let outwards = if label.starts_with("input") { -0.35 } else { 0.35 };
+    rect.center() + Vec2::new(outwards * rect.width(), 0.0)
+}
+
+/// Drags and leaves the button pressed.
+fn drag(window: &mut Window, from: Pos2, to: Pos2) {
+    window.hover_at(from);
+    window.run_steps(2);
+    window.drag_at(from);
+    window.run_steps(2);
+    for part in [0.3, 0.7, 1.0, 1.0] {
+        window.hover_at(from.lerp(to, part));
+        window.run_steps(2);
+    }
+}
+
+fn drag_and_drop(window: &mut Window, from: Pos2, to: Pos2) {
+    drag(window, from, to);
+    window.drop_at(to);
+    window.run_steps(4);
+}
+
+fn wire(window: &mut Window, wire: &str) {
+    let (from, to) = wire.split_once(" -> ").expect("a wire");
+    let (from, to) = (socket(window, &format!("output {from}")), socket(window, &format!("input {to}")));
+    drag_and_drop(window, from, to);
+}
+
+/// Adds a processor with the palette, at a place.
+fn add(window: &mut Window, search: &str, at: Pos2) {
+    window.hover_at(at);
+    window.run_steps(2);
+    key(window, Modifiers::NONE, Key::Space);
+    window.event(Event::Text(search.to_owned()));
+    window.run_steps(3);
+    key(window, Modifiers::NONE, Key::Enter);
+}
+
+/// The network from source to canvas, from nothing.
+fn chain() -> Window {
+    let mut window = studio(Options::default());
+    window.run_steps(4);
+    let places = [(310.0, 130.0), (310.0, 330.0), (510.0, 330.0), (560.0, 520.0), (740.0, 400.0)];
+    let names = ["volume gen", "cube", "entry", "ray tra", "canvas"];
+    for (name, (x, y)) in names.into_iter().zip(places) {
+        add(&mut window, name, Pos2::new(x, y));
+    }
+    window.run_steps(20);
+    for text in SOURCE_TO_CANVAS {
+        wire(&mut window, text);
+    }
+    window
+}
+
+#[test]
+fn a_network_is_wired_from_nothing_by_mouse_and_keyboard() {
+    let mut window = chain();
+    assert_eq!(wires(&window), SOURCE_TO_CANVAS);
+    wait_for(&mut window, "processor canvas (Canvas): ready");
+    keep_picture(&mut window, "chain");
+    let built = text(&window);
+    let steps = 5 + SOURCE_TO_CANVAS.len();
+    for _ in 0..steps {
+        key(&mut window, Modifiers::COMMAND, Key::Z);
+    }
+    assert_eq!(window.state().session.network().processors().count(), 0);
+    assert!(!window.state().session.document.is_modified());
+    for _ in 0..steps {
+        key(&mut window, Modifiers::COMMAND, Key::Y);
+    }
+    assert_eq!(text(&window), built);
+
+    // A drag of a node is one step.
+    let node = window.get_by_label_contains("processor canvas").rect();
+    let grip = node.left_top() + Vec2::new(30.0, 12.0);
+    drag_and_drop(&mut window, grip, grip + Vec2::new(-40.0, -150.0));
+    window.run_steps(20);
+    assert_ne!(text(&window), built);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(text(&window), built);
+}
+
+#[test]
+fn wires_are_refused_with_the_reason_replugged_cut_and_offered_what_fits() {
+    let mut window = chain();
+    // Refused: the reason is at the pointer before, and among the messages after.
+    let (from, to) = (socket(&window, "output cube_proxy.geometry"), socket(&window, "input ray_traversal.entry"));
+    drag(&mut window, from, to);
+    let reason = "cube_proxy.geometry gives a geometry, but ray_traversal.entry takes an image of entry points.";
+    assert!(window.query_by_label(reason).is_some(), "no tooltip");
+    keep_picture(&mut window, "refused");
+    window.drop_at(to);
+    window.run_steps(3);
+    assert_eq!(wires(&window), SOURCE_TO_CANVAS);
+    assert!(window.state().session.messages.iter().any(|message| message.text == reason));
+
+    // Taken off and dropped on empty canvas: cut.
+    let (held, empty) = (socket(&window, "input canvas.image"), Pos2::new(740.0, 180.0));
+    drag_and_drop(&mut window, held, empty);
+    assert!(!wires(&window).contains(&SOURCE_TO_CANVAS[5].to_owned()));
+
+    // Drawn to empty canvas: a menu of what fits, connected at once.
+    let from = socket(&window, "output ray_traversal.image");
+    drag_and_drop(&mut window, from, empty);
+    assert!(window.query_by_label("Cube proxy  (Volume)").is_none(), "offered although it does not fit");
+    window.get_by_label("Background  (Front)").click();
+    window.run_steps(20);
+    assert!(wires(&window).contains(&"ray_traversal.image -> background.front".to_owned()));
+
+    // Deleted with reconnecting: what fed it feeds what it fed.
+    wire(&mut window, "background.image -> canvas.image");
+    window.get_by_label_contains("processor background").click();
+    window.run_steps(3);
+    assert!(window.state().session.selection.contains("background"));
+    key(&mut window, Modifiers::SHIFT, Key::Delete);
+    assert_eq!(wires(&window).last().map(String::as_str), Some(SOURCE_TO_CANVAS[5]));
+
+    // A wire is selected by a click and removed by a key.
+    let middle = socket(&window, "output cube_proxy.geometry").lerp(socket(&window, "input entry_exit_points.geometry"), 0.5);
+    window.hover_at(middle);
+    window.run_steps(3);
+    window.drag_at(middle);
+    window.run_steps(1);
+    window.drop_at(middle);
+    window.run_steps(3);
+    key(&mut window, Modifiers::NONE, Key::Delete);
+    assert!(!wires(&window).contains(&SOURCE_TO_CANVAS[1].to_owned()));
+}
+
+#[test]
+fn copies_are_text_and_the_list_adds_into_wires() {
+    let mut window = chain();
+    window.get_by_label_contains("processor entry_exit_points").click();
+    window.run_steps(3);
+    window.event(Event::Copy);
+    window.run_steps(1);
+    let copied = window.output().platform_output.commands.iter().find_map(|command| match command {
+        egui::OutputCommand::CopyText(text) => Some(text.clone()),
+        _ => None,
+    });
+    let copied = copied.expect("something copied");
+    assert!(copied.contains("\"type\": \"entry_exit_points\""), "{copied}");
+    window.hover_at(Pos2::new(420.0, 560.0));
+    window.event(Event::Paste(copied));
+    window.run_steps(5);
+    assert!(window.state().session.network().processor("entry_exit_points_2").is_some());
+    key(&mut window, Modifiers::COMMAND, Key::D);
+    assert!(window.state().session.network().processor("entry_exit_points_3").is_some());
+
+    // Dragged from the list onto a wire: inserted.
+    let entry = window.get_by_label("Background").rect().center();
+    let middle = socket(&window, "output ray_traversal.image").lerp(socket(&window, "input canvas.image"), 0.5);
+    drag_and_drop(&mut window, entry, middle);
+    assert!(wires(&window).contains(&"ray_traversal.image -> background.front".to_owned()));
+    assert!(wires(&window).contains(&"background.image -> canvas.image".to_owned()));
+    // Clicked in the list: added.
+    window.get_by_label("Compositor").click();
+    window.run_steps(5);
+    assert!(window.state().session.network().processor("compositor").is_some());
+    // Arranged: nothing overlaps.
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    window.get_by_label("Arrange").click();
+    window.run_steps(30);
+    let network = window.state().session.network();
+    let at = |id: &str| network.processor(id).expect("there").position();
+    assert!(at("volume_generator")[0] < at("cube_proxy")[0] && at("ray_traversal")[0] < at("canvas")[0]);
+    keep_picture(&mut window, "arranged");
+}
+
+#[test]
+fn resting_on_a_wire_shows_what_flows_there_at_any_zoom() {
+    let mut window = studio(flagship());
+    wait_for(&mut window, "processor canvas (Canvas): ready");
+    let ends = ["output source.volume", "input proxy.volume"];
+    for zoom in [0.5, 1.0, 2.0] {
+        let middle = |window: &Window| window.get_by_label(ends[0]).rect().center().lerp(window.get_by_label(ends[1]).rect().center(), 0.5);
+        window.hover_at(middle(&window));
+        window.run_steps(2);
+        let shown = window.get_by_label(ends[0]).rect().width() / 18.0;
+        window.event(Event::Zoom(zoom / shown));
+        window.run_steps(3);
+        let now = window.get_by_label(ends[0]).rect().width() / 18.0;
+        assert!((now - zoom).abs() < 0.01, "zoom {now} instead of {zoom}");
+        window.hover_at(Pos2::new(420.0, 620.0));
+        window.run_steps(30);
+        assert!(window.query_by_label("source.volume").is_none(), "shown although nothing rests there");
+        window.hover_at(middle(&window));
+        window.run_steps(30);
+        assert!(window.query_by_label("source.volume").is_some(), "nothing shown at zoom {zoom}");
+        keep_picture(&mut window, &format!("wire_{zoom}"));
+    }
+}
