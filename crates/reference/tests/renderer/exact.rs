@@ -212,3 +212,27 @@ fn lit_integrals_are_right_to_a_billionth() {
         assert!(errors[1] < bound && errors[1] < 0.2 * errors[0], "{errors:?}");
     }
 }
+
+#[test]
+fn front_over_back_is_the_whole() {
+    let volume = noisy();
+    for shading in [None, Some(BlinnPhong { gradient_fade: 0.02, ..BlinnPhong::default() })] {
+        let mut scene = noisy_scene(&volume);
+        scene.shading = shading;
+        let mut render = |clip| {
+            scene.clip = clip;
+            exact::render(&scene).expect("the scene makes sense").color
+        };
+        let whole = render(AxisBox::UNIT);
+        // The camera looks towards smaller z: what is above the cut is in front. The parts are halved elsewhere than the whole.
+        let cut = 0.437_123;
+        let front = render(AxisBox { min: DVec3::new(0.0, 0.0, cut), ..AxisBox::UNIT });
+        let back = render(AxisBox { max: DVec3::new(1.0, 1.0, cut), ..AxisBox::UNIT });
+        let over = |i: usize, c: usize| front[i][c] + (1.0 - front[i][3]) * back[i][c];
+        let errors =
+            (0..whole.len()).flat_map(|i| (0..4).map(move |c| (i, c))).map(|(i, c)| (over(i, c) - whole[i][c]).abs());
+        let (worst, bound) = (errors.fold(0.0, f64::max), if shading.is_some() { 1e-9 } else { 1e-13 });
+        println!("lit {}: {worst:e}", shading.is_some());
+        assert!(worst < bound, "{worst:e}");
+    }
+}
