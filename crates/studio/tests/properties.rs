@@ -23,13 +23,18 @@ fn value(harness: &Harness<'_, Studio>, property: &str) -> Option<Value> {
     session.network().value(id, property)
 }
 
+/// Brings something into sight and clicks it.
+fn click(harness: &mut Harness<'_, Studio>, role: Role, label: &str) {
+    harness.get_by_role_and_label(role, label).scroll_to_me();
+    // Scrolling takes a moment.
+    harness.run_steps(30);
+    harness.get_by_role_and_label(role, label).click();
+    harness.run_steps(3);
+}
+
 /// Clicks a number and types another in its place.
 fn type_number(harness: &mut Harness<'_, Studio>, label: &str, text: &str) {
-    let field = harness.get_by_role_and_label(Role::Slider, label);
-    field.scroll_to_me();
-    harness.run_steps(4);
-    harness.get_by_role_and_label(Role::Slider, label).click();
-    harness.run_steps(3);
+    click(harness, Role::Slider, label);
     harness.event(egui::Event::Text(text.to_owned()));
     harness.run_steps(2);
     harness.key_press(Key::Enter);
@@ -62,8 +67,8 @@ fn a_number_is_typed_bad_input_keeps_it_and_reset_puts_it_back() {
 fn another_snippet_brings_its_own_parameters() {
     let mut harness = selected("traversal");
     assert!(harness.query_by_role_and_label(Role::Slider, "Ambient").is_some());
-    harness.get_by_role_and_label(Role::ComboBox, "Shading").click();
-    harness.run_steps(3);
+    click(&mut harness, Role::ComboBox, "Shading");
+    window::keep_picture(&mut harness, "properties_choice");
     harness.get_by_label("None").click();
     harness.run_steps(3);
     assert_eq!(value(&harness, "shading"), Some(Value::Text("none".into())));
@@ -112,6 +117,7 @@ fn looks() {
     for id in ["traversal", "view", "background", "source"] {
         let mut harness = selected(id);
         window::wait_for(&mut harness, "ready, took");
+        std::thread::sleep(std::time::Duration::from_millis(500));
         harness.run_steps(10);
         window::keep_picture(&mut harness, &format!("properties_{id}"));
     }

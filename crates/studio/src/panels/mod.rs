@@ -79,16 +79,17 @@ impl Panels {
     }
 }
 
-/// The layout that a new user meets: what there is on the left, how it is wired in the middle, what it shows on the right.
+/// The layout that a new user meets: what there is on the left, how it is wired and what it
+/// shows in the middle, the properties of the selection on the right.
 pub fn default_layout() -> Tree<Pane> {
     let mut tiles = Tiles::default();
     let [processors, network, canvas, messages, properties] =
         [Pane::Processors, Pane::Network, Pane::Canvas, Pane::Messages, Pane::Properties]
             .map(|pane| tiles.insert_pane(pane));
-    let right = share(&mut tiles, LinearDir::Vertical, &[(canvas, 0.45), (properties, 0.55)]);
-    let columns = [(processors, 0.15), (network, 0.56), (right, 0.29)];
-    let columns = share(&mut tiles, LinearDir::Horizontal, &columns);
-    let root = share(&mut tiles, LinearDir::Vertical, &[(columns, 0.85), (messages, 0.15)]);
+    let middle = share(&mut tiles, LinearDir::Vertical, &[(network, 0.42), (canvas, 0.58)]);
+    let left = share(&mut tiles, LinearDir::Vertical, &[(processors, 0.75), (messages, 0.25)]);
+    let columns = [(left, 0.16), (middle, 0.57), (properties, 0.27)];
+    let root = share(&mut tiles, LinearDir::Horizontal, &columns);
     Tree::new("panels", root, tiles)
 }
 

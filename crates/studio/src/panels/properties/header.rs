@@ -52,7 +52,7 @@ fn help_mark(ui: &mut Ui, help: &str) {
     if help.is_empty() {
         return;
     }
-    ui.label(RichText::new("ⓘ").weak()).on_hover_text(help);
+    ui.label(RichText::new("ℹ").weak()).on_hover_text(help);
 }
 
 /// One line: what happens, or what is wrong.

@@ -58,8 +58,7 @@ impl Number<'_> {
         let typed = response.has_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         if response.clicked() || typed {
             ui.data_mut(|data| data.insert_temp(id, Typing(value.to_string())));
-            let edit = id.with("edit");
-            ui.memory_mut(|memory| memory.request_focus(edit));
+            ui.ctx().request_repaint();
             return Entered::Nothing;
         }
         if response.drag_started() {
@@ -110,6 +109,7 @@ impl Number<'_> {
             let output = edit.desired_width(area.width()).show(ui);
             let response = output.response.response.clone();
             if fresh {
+                response.request_focus();
                 select_all(ui, edit_id, &output);
             }
             response
