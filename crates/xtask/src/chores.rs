@@ -10,8 +10,8 @@ const FLAGSHIP: &str = "networks/brain.json";
 /// Where its picture goes.
 const PICTURE: &str = "out/brain.png";
 
-/// Builds the program and renders the flagship network.
-pub fn picture() -> Result<(), String> {
+/// Builds the program, renders the flagship network, and opens it in the studio where there is a display.
+pub fn start() -> Result<(), String> {
     let rayloom = build("release")?;
     adapter::ensure(&rayloom)?;
     let picture = root().join(PICTURE);
@@ -19,7 +19,18 @@ pub fn picture() -> Result<(), String> {
     std::fs::create_dir_all(&folder).map_err(|error| format!("{} cannot be made: {error}", folder.display()))?;
     run(&mut program(&rayloom.to_string_lossy(), &["render", FLAGSHIP, "-o", PICTURE]))?;
     println!("The picture is at {}", picture.display());
-    Ok(())
+    if !has_display() {
+        println!("There is no display, so the studio stays closed.");
+        return Ok(());
+    }
+    println!("Opening the network in the studio");
+    run(&mut program(&rayloom.to_string_lossy(), &["open", FLAGSHIP]))
+}
+
+/// Whether a window can be opened; systems other than X11 and Wayland are taken to have a display.
+fn has_display() -> bool {
+    let set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    !cfg!(all(unix, not(target_os = "macos"))) || set("DISPLAY") || set("WAYLAND_DISPLAY")
 }
 
 /// Everything that must hold before a change is merged; goes on after a failure and sums up at the end.

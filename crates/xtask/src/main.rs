@@ -9,20 +9,20 @@ use std::process::ExitCode;
 const HELP: &str = "\
 Chores of the project: cargo xtask CHORE
 
-  picture   build, render the flagship network to out/brain.png and say where it is
+  start     build, render the flagship network to out/brain.png and say where it is; open it where there is a display
   test      check formatting, lint, run all tests, build the documentation
   golden    render the golden images anew (look at the difference before you commit it)
   docs      write docs/processors and docs/snippets anew from the declarations
   bench     run the benches
 
-`picture` and `test` need a Vulkan adapter. Where there is none they install Mesa's software driver on Debian and
+`start` and `test` need a Vulkan adapter. Where there is none they install Mesa's software driver on Debian and
 Ubuntu (saying so first) and print what to install elsewhere.
 ";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let result = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        ["picture"] => chores::picture(),
+        ["start"] => chores::start(),
         ["test"] => chores::test(),
         ["golden"] => chores::golden(),
         ["docs"] => chores::docs(),
