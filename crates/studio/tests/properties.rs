@@ -112,13 +112,110 @@ fn a_click_adds_a_knot_and_the_right_button_removes_it() {
     assert_eq!(count(&harness), 4);
 }
 
+/// Sets a property of the selected processor.
+fn set(harness: &mut Harness<'_, Studio>, property: &str, value: &str) {
+    let json: serde_json::Value = serde_json::from_str(value).expect("JSON");
+    let session = &mut harness.state_mut().session;
+    let id = session.selection.first().cloned().expect("a selection");
+    let set = |network: &mut rayloom_network::Network| network.set_from_json(&id, property, &json).map(|_| ());
+    assert!(session.edit("set", set));
+    harness.run_steps(3);
+}
+
 #[test]
-fn looks() {
-    for id in ["traversal", "view", "background", "source"] {
-        let mut harness = selected(id);
-        window::wait_for(&mut harness, "ready, took");
-        std::thread::sleep(std::time::Duration::from_millis(500));
-        harness.run_steps(10);
-        window::keep_picture(&mut harness, &format!("properties_{id}"));
+fn every_editor_of_a_traversal_works_on_the_real_volume() {
+    let mut harness = selected("traversal");
+    window::wait_for(&mut harness, "ready, took");
+    set(&mut harness, "classification", "\"transfer_function_2d\"");
+    click(&mut harness, Role::Button, "Add a shape");
+    harness.get_by_label("Triangle").click();
+    harness.run_steps(3);
+    let Some(Value::TransferFunction2D(function)) = value(&harness, "transfer_function_2d") else { panic!("none") };
+    assert_eq!(function.primitives.len(), 1);
+    let handle = harness.get_by_label("Handle 1 of 2-D transfer function").rect().center();
+    harness.drag_at(handle);
+    harness.run_steps(2);
+    harness.hover_at(handle + Vec2::new(30.0, -20.0));
+    harness.run_steps(2);
+    harness.drop_at(handle + Vec2::new(30.0, -20.0));
+    harness.run_steps(3);
+    assert_ne!(value(&harness, "transfer_function_2d"), Some(Value::TransferFunction2D(function)));
+    std::thread::sleep(std::time::Duration::from_secs(2));
+    harness.run_steps(5);
+    window::keep_picture(&mut harness, "properties_2d");
+
+    set(&mut harness, "classification", "\"labels\"");
+    for _ in 0..3 {
+        click(&mut harness, Role::Button, "Add a label");
     }
+    type_number(&mut harness, "Opacity of label 2", "0.8");
+    let Some(Value::Labels(table)) = value(&harness, "label_table") else { panic!("none") };
+    assert_eq!((table.labels.len(), table.labels[&2].transfer_function.knots[0].opacity), (3, 0.8));
+    window::keep_picture(&mut harness, "properties_labels");
+
+    set(&mut harness, "classification", "\"transfer_function\"");
+    harness.get_by_label("Direction of Light").scroll_to_me();
+    harness.run_steps(30);
+    window::keep_picture(&mut harness, "properties_light");
+    let sphere = harness.get_by_label("Direction of Light").rect();
+    harness.drag_at(sphere.center());
+    harness.run_steps(2);
+    harness.drop_at(sphere.center());
+    harness.run_steps(3);
+    let Some(Value::Light(light)) = value(&harness, "light") else { panic!("none") };
+    assert_eq!(light.direction, [0.0, 0.0, 1.0]);
+}
+
+#[test]
+fn a_snippet_is_edited_broken_and_reverted() {
+    let mut harness = selected("traversal");
+    window::wait_for(&mut harness, "ready, took");
+    click(&mut harness, Role::Button, "Shading text");
+    let editor = harness.get_by_role_and_label(Role::MultilineTextInput, "Shading text");
+    editor.scroll_to_me();
+    harness.run_steps(30);
+    harness.get_by_role_and_label(Role::MultilineTextInput, "Shading text").focus();
+    harness.run_steps(3);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::End);
+    harness.run_steps(2);
+    harness.event(egui::Event::Text("\nbroken".to_owned()));
+    harness.run_steps(3);
+    assert_eq!(value(&harness, "shading.text"), Some(Value::Text(String::new())));
+    click(&mut harness, Role::Button, "Apply");
+    window::wait_for(&mut harness, "line ");
+    window::keep_picture(&mut harness, "properties_broken");
+    assert!(matches!(value(&harness, "shading.text"), Some(Value::Text(text)) if text.ends_with("broken")));
+    click(&mut harness, Role::Button, "Revert");
+    assert_eq!(value(&harness, "shading.text"), Some(Value::Text(String::new())));
+    window::wait_for(&mut harness, "ready, took");
+}
+
+#[test]
+fn cameras_keep_their_distance_and_links_are_made_and_cut() {
+    let mut harness = selected("view");
+    window::wait_for(&mut harness, "ready, took");
+    let distance = |harness: &Harness<'_, Studio>| match value(harness, "camera") {
+        Some(Value::Camera(camera)) => (camera.distance(), camera.basis()[2]),
+        _ => panic!("no camera"),
+    };
+    let before = distance(&harness).0;
+    click(&mut harness, Role::Button, "Top");
+    let (after, forward) = distance(&harness);
+    assert!((after - before).abs() < 1e-9 && forward.z < -0.999);
+    type_number(&mut harness, "Up x", "nonsense");
+    assert!(harness.query_by_label_contains("is not a number").is_some());
+
+    let add = |network: &mut rayloom_network::Network| network.add("entry_exit_points", "second");
+    assert!(harness.state_mut().session.edit("add", add));
+    click(&mut harness, Role::Button, "Menu of Camera");
+    harness.get_by_label_contains("Link with").click();
+    harness.run_steps(5);
+    harness.get_by_label("second.camera").click();
+    harness.run_steps(5);
+    assert_eq!(harness.state().session.network().links().len(), 1);
+    click(&mut harness, Role::Button, "Menu of Camera");
+    window::keep_picture(&mut harness, "properties_link");
+    harness.get_by_label("Cut the link with second.camera").click();
+    harness.run_steps(5);
+    assert!(harness.state().session.network().links().is_empty());
 }

@@ -1,9 +1,12 @@
 //! A list of possibilities, each with its help.
 
-use egui::{ComboBox, RichText, Ui};
+use egui::{ComboBox, Ui};
 use rayloom_network::{Choice, PropertyDecl};
 use rayloom_processors::snippet_library;
 use rayloom_wgsl::{Library, Slot};
+
+/// Width of the open list, points.
+const HELP_WIDTH: f32 = 310.0;
 
 /// Shows a choice; the id of the new one if the user chose one.
 pub(super) fn show(ui: &mut Ui, decl: &PropertyDecl, choices: &[Choice], id: &str) -> Option<String> {
@@ -13,7 +16,8 @@ pub(super) fn show(ui: &mut Ui, decl: &PropertyDecl, choices: &[Choice], id: &st
     let width = ui.available_width();
     let list = ComboBox::from_id_salt(&decl.id).width(width).height(420.0).truncate().selected_text(shown);
     let opened = list.show_ui(ui, |ui| {
-        ui.set_min_width(260.0);
+        ui.set_min_width(HELP_WIDTH);
+        ui.set_max_width(HELP_WIDTH);
         ui.spacing_mut().item_spacing.y = 1.0;
         for choice in choices {
             if item(ui, choice, choice.id == id) {
@@ -33,11 +37,10 @@ fn item(ui: &mut Ui, choice: &Choice, selected: bool) -> bool {
     let format = |size: f32, color| egui::TextFormat::simple(egui::FontId::proportional(size), color);
     job.append(&choice.label, 0.0, format(13.0, ui.visuals().strong_text_color()));
     if !choice.help.is_empty() {
-        let help = RichText::new(&choice.help).size(11.0);
-        job.append(&format!("\n{}", help.text()), 0.0, format(11.0, ui.visuals().weak_text_color()));
+        let color = ui.visuals().text_color().gamma_multiply(0.75);
+        job.append(&format!("\n{}", choice.help), 0.0, format(11.0, color));
     }
-    job.wrap.max_width = 300.0;
-    let response = ui.selectable_label(selected, job);
+    let response = ui.add(egui::Button::selectable(selected, job).wrap().min_size(egui::vec2(HELP_WIDTH, 0.0)));
     response.widget_info(|| egui::WidgetInfo::selected(egui::WidgetType::SelectableLabel, true, selected, &choice.label));
     response.clicked()
 }

@@ -4,9 +4,9 @@ use std::collections::HashMap;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Weak};
 
-use rayloom_volume::{Histogram, Histogram2D, Volume, histogram, histogram_2d};
+use rayloom_volume::{Histogram, Histogram2D, Volume, Voxels, histogram, histogram_2d};
 
-/// Bins of a histogram of values.
+/// Bins of a histogram of values at most.
 const BINS: usize = 256;
 /// Bins of a histogram of values and gradient magnitudes.
 const BINS_2D: [usize; 2] = [192, 128];
@@ -66,7 +66,7 @@ impl Histograms {
             return entry.counted.clone();
         }
         self.values.insert(key, Entry { _volume: Arc::downgrade(volume), counted: None });
-        self.count(volume, move |volume| Counted::Values(key, histogram(volume, channel, BINS)));
+        self.count(volume, move |volume| Counted::Values(key, histogram(volume, channel, bins(volume, channel))));
         None
     }
 
@@ -92,4 +92,11 @@ impl Histograms {
             context.request_repaint();
         });
     }
+}
+
+/// As many bins as whole-numbered data have codes, so that none stays empty for want of a code; else the most.
+fn bins(volume: &Volume, channel: u32) -> usize {
+    let codes = volume.stored_range(channel).width() + 1.0;
+    let whole = !matches!(volume.voxels, Voxels::F32(_) | Voxels::F64(_));
+    if whole && codes < BINS as f64 { codes as usize } else { BINS }
 }

@@ -123,8 +123,9 @@ fn name(ui: &mut Ui, decl: &PropertyDecl, address: &Address, width: f32, surroun
     let at = egui::pos2(area.left() + mark, area.center().y - galley.size().y / 2.0);
     ui.painter().galley(at, galley, color);
     let response = response.on_hover_ui(|ui| help(ui, decl, address, surroundings));
-    egui::Popup::menu(&response).show(|ui| link::menu(ui, decl, address, surroundings));
-    response.context_menu(|ui| link::menu(ui, decl, address, surroundings));
+    let clicked = response.clicked() || response.secondary_clicked();
+    let menu = egui::Popup::menu(&response).open_memory(clicked.then_some(egui::SetOpenCommand::Toggle));
+    menu.show(|ui| link::menu(ui, decl, address, surroundings));
 }
 
 fn help(ui: &mut Ui, decl: &PropertyDecl, address: &Address, surroundings: &Surroundings<'_>) {

@@ -61,7 +61,7 @@ pub(super) fn histogram(ui: &Ui, plot: &Plot, histogram: &Histogram, linear: boo
         true => (count as f64 / most).min(1.0),
         false => (count as f64).ln_1p() / most.ln_1p(),
     };
-    let color = ui.visuals().weak_text_color().gamma_multiply(0.35);
+    let color = ui.visuals().weak_text_color().gamma_multiply(0.55);
     let bins = histogram.counts.len() as f64;
     let mut mesh = Mesh::default();
     for (bin, count) in histogram.counts.iter().enumerate().filter(|(_, count)| **count > 0) {

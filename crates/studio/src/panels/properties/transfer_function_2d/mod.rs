@@ -238,7 +238,7 @@ fn tools(
 ) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        ui.menu_button("Add", |ui| {
+        ui.menu_button("Add a shape", |ui| {
             for (name, shape) in shapes::NEW {
                 if ui.button(name).clicked() {
                     let range = plane.plot.range;
