@@ -2,11 +2,23 @@
 
 mod window;
 
-use egui::{Event, Key, Modifiers, Pos2, Vec2};
+use egui::{Event, Key, Modifiers, Pos2, Rect, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use rayloom_studio::{Options, Studio};
 use window::{flagship, keep_picture, studio, wait_for};
+
+/// The node canvas, without the border.
+fn canvas(window: &Window) -> Rect {
+    let tab = window.get_by_label("Network").rect();
+    Rect::from_min_max(tab.left_bottom() + Vec2::splat(20.0), window.get_by_label("Show all").rect().right_bottom())
+}
+
+/// A place on the canvas, by its share of the width and height.
+fn on_canvas(window: &Window, (x, y): (f32, f32)) -> Pos2 {
+    let canvas = canvas(window);
+    canvas.min + canvas.size() * Vec2::new(x, y)
+}
 
 type Window = Harness<'static, Studio>;
 
@@ -77,10 +89,16 @@ fn add(window: &mut Window, search: &str, at: Pos2) {
 fn chain() -> Window {
     let mut window = studio(Options::default());
     window.run_steps(4);
-    let places = [(310.0, 130.0), (310.0, 330.0), (510.0, 330.0), (560.0, 520.0), (740.0, 400.0)];
+    // Small enough for everything to be in view.
+    window.hover_at(canvas(&window).left_top());
+    window.run_steps(2);
+    window.event(Event::Zoom(0.6));
+    window.run_steps(3);
+    let places =
+        [(0.2, 0.15), (0.2, 0.45), (0.5, 0.45), (0.6, 0.75), (0.85, 0.55)].map(|place| on_canvas(&window, place));
     let names = ["volume gen", "cube", "entry", "ray tra", "canvas"];
-    for (name, (x, y)) in names.into_iter().zip(places) {
-        add(&mut window, name, Pos2::new(x, y));
+    for (name, place) in names.into_iter().zip(places) {
+        add(&mut window, name, place);
     }
     window.run_steps(20);
     for text in SOURCE_TO_CANVAS {
@@ -110,7 +128,7 @@ fn a_network_is_wired_from_nothing_by_mouse_and_keyboard() {
     // A drag of a node is one step.
     let node = window.get_by_label_contains("processor canvas").rect();
     let grip = node.left_top() + Vec2::new(30.0, 12.0);
-    drag_and_drop(&mut window, grip, grip + Vec2::new(-40.0, -150.0));
+    drag_and_drop(&mut window, grip, grip + Vec2::new(-20.0, -100.0));
     window.run_steps(20);
     assert_ne!(text(&window), built);
     key(&mut window, Modifiers::COMMAND, Key::Z);
@@ -132,7 +150,7 @@ fn wires_are_refused_with_the_reason_replugged_cut_and_offered_what_fits() {
     assert!(window.state().session.messages.iter().any(|message| message.text == reason));
 
     // Taken off and dropped on empty canvas: cut.
-    let (held, empty) = (socket(&window, "input canvas.image"), Pos2::new(740.0, 180.0));
+    let (held, empty) = (socket(&window, "input canvas.image"), on_canvas(&window, (0.8, 0.15)));
     drag_and_drop(&mut window, held, empty);
     assert!(!wires(&window).contains(&SOURCE_TO_CANVAS[5].to_owned()));
 
@@ -153,7 +171,8 @@ fn wires_are_refused_with_the_reason_replugged_cut_and_offered_what_fits() {
     assert_eq!(wires(&window).last().map(String::as_str), Some(SOURCE_TO_CANVAS[5]));
 
     // A wire is selected by a click and removed by a key.
-    let middle = socket(&window, "output cube_proxy.geometry").lerp(socket(&window, "input entry_exit_points.geometry"), 0.5);
+    let middle =
+        socket(&window, "output cube_proxy.geometry").lerp(socket(&window, "input entry_exit_points.geometry"), 0.5);
     window.hover_at(middle);
     window.run_steps(3);
     window.drag_at(middle);
@@ -177,7 +196,7 @@ fn copies_are_text_and_the_list_adds_into_wires() {
     });
     let copied = copied.expect("something copied");
     assert!(copied.contains("\"type\": \"entry_exit_points\""), "{copied}");
-    window.hover_at(Pos2::new(420.0, 560.0));
+    window.hover_at(on_canvas(&window, (0.2, 0.7)));
     window.event(Event::Paste(copied));
     window.run_steps(5);
     assert!(window.state().session.network().processor("entry_exit_points_2").is_some());
@@ -210,7 +229,9 @@ fn resting_on_a_wire_shows_what_flows_there_at_any_zoom() {
     wait_for(&mut window, "processor canvas (Canvas): ready");
     let ends = ["output source.volume", "input proxy.volume"];
     for zoom in [0.5, 1.0, 2.0] {
-        let middle = |window: &Window| window.get_by_label(ends[0]).rect().center().lerp(window.get_by_label(ends[1]).rect().center(), 0.5);
+        let middle = |window: &Window| {
+            window.get_by_label(ends[0]).rect().center().lerp(window.get_by_label(ends[1]).rect().center(), 0.5)
+        };
         window.hover_at(middle(&window));
         window.run_steps(2);
         let shown = window.get_by_label(ends[0]).rect().width() / 18.0;
@@ -218,7 +239,7 @@ fn resting_on_a_wire_shows_what_flows_there_at_any_zoom() {
         window.run_steps(3);
         let now = window.get_by_label(ends[0]).rect().width() / 18.0;
         assert!((now - zoom).abs() < 0.01, "zoom {now} instead of {zoom}");
-        window.hover_at(Pos2::new(420.0, 620.0));
+        window.hover_at(Pos2::new(600.0, 10.0));
         window.run_steps(30);
         assert!(window.query_by_label("source.volume").is_none(), "shown although nothing rests there");
         window.hover_at(middle(&window));
@@ -226,4 +247,49 @@ fn resting_on_a_wire_shows_what_flows_there_at_any_zoom() {
         assert!(window.query_by_label("source.volume").is_some(), "nothing shown at zoom {zoom}");
         keep_picture(&mut window, &format!("wire_{zoom}"));
     }
+}
+
+/// Longest average frame of a large network, milliseconds; drawing it is not counted, a software device would decide.
+const FRAME: f64 = 50.0;
+
+#[test]
+fn three_hundred_nodes_stay_fluid() {
+    let folder = std::env::temp_dir().join(format!("rayloom-large-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let file = folder.join("large.json");
+    let node = |i: usize| serde_json::json!({"id": format!("n{i}"), "type": "compositor", "position": [(i % 20) * 220, (i / 20) * 140]});
+    let first = (0..299).map(|i| format!("n{i}.image -> n{}.first", i + 1));
+    let second = (0..201).map(|i| format!("n{i}.image -> n{}.second", i + 2));
+    let network = serde_json::json!({
+        "rayloom": 1,
+        "processors": (0..300).map(node).collect::<Vec<_>>(),
+        "connections": first.chain(second).collect::<Vec<_>>(),
+    });
+    std::fs::write(&file, network.to_string()).expect("written");
+    let mut window = studio(Options { network: Some(file), ..Options::default() });
+    window.run_steps(10);
+    assert_eq!(wires(&window).len(), 500);
+    let center = on_canvas(&window, (0.5, 0.5));
+    window.hover_at(center);
+    for (name, zoom) in [("everything in view", 1.0), ("zoomed in", 4.0)] {
+        window.event(Event::Zoom(zoom));
+        window.run_steps(5);
+        let start = std::time::Instant::now();
+        let frames = 40;
+        for frame in 0..frames {
+            let scroll = if frame % 2 == 0 { 9.0 } else { -7.0 };
+            window.event(Event::MouseWheel {
+                unit: egui::MouseWheelUnit::Point,
+                delta: Vec2::new(scroll, scroll),
+                phase: egui::TouchPhase::Move,
+                modifiers: Modifiers::NONE,
+            });
+            window.step();
+        }
+        let each = start.elapsed().as_secs_f64() * 1e3 / f64::from(frames);
+        println!("300 nodes, 500 wires, {name}: {each:.1} ms a frame");
+        assert!(each < FRAME, "{each} ms a frame");
+    }
+    keep_picture(&mut window, "large");
+    std::fs::remove_dir_all(&folder).expect("removed");
 }

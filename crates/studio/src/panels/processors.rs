@@ -42,13 +42,19 @@ impl ProcessorsPanel {
 
 /// One processor; whether it was clicked.
 fn entry(ui: &mut Ui, declaration: &Declaration) -> bool {
-    let button = egui::Button::new(&declaration.label).frame_when_inactive(false).min_size([ui.available_width(), 0.0].into());
+    let button =
+        egui::Button::new(&declaration.label).frame_when_inactive(false).min_size([ui.available_width(), 0.0].into());
     let response = ui.add(button.sense(Sense::click_and_drag()));
     response.dnd_set_drag_payload(NewProcessor(declaration.id.clone()));
     if response.dragged() {
-        egui::Tooltip::always_open(ui.ctx().clone(), ui.layer_id(), response.id.with("load"), egui::PopupAnchor::Pointer)
-            .gap(12.0)
-            .show(|ui| ui.label(&declaration.label));
+        egui::Tooltip::always_open(
+            ui.ctx().clone(),
+            ui.layer_id(),
+            response.id.with("load"),
+            egui::PopupAnchor::Pointer,
+        )
+        .gap(12.0)
+        .show(|ui| ui.label(&declaration.label));
     }
     let clicked = response.clicked();
     response.on_hover_ui(|ui| help(ui, declaration));

@@ -73,15 +73,11 @@ pub fn fits_into<'a>(network: &Network, declaration: &'a Declaration, wire: &Con
 ///
 /// # Errors
 /// The processor does not fit there; and as [`add`].
-pub fn insert(
-    network: &mut Network,
-    type_id: &str,
-    at: [f64; 2],
-    wire: &Connection,
-) -> Result<String, WiringError> {
+pub fn insert(network: &mut Network, type_id: &str, at: [f64; 2], wire: &Connection) -> Result<String, WiringError> {
     let id = add(network, type_id, at)?;
     let declaration = network.processor(&id).and_then(|p| p.declaration()).cloned();
-    let declaration = declaration.ok_or_else(|| EditError::UnknownType { id: type_id.to_owned(), hint: String::new() })?;
+    let declaration =
+        declaration.ok_or_else(|| EditError::UnknownType { id: type_id.to_owned(), hint: String::new() })?;
     let Some((inport, outport)) = fits_into(network, &declaration, wire) else {
         let flowing = End::Outport(wire.from.clone()).types(network).first().copied();
         let found = flowing.ok_or_else(|| WiringError::NoWire(Box::new(wire.clone())))?;
@@ -105,7 +101,8 @@ pub fn replace(network: &mut Network, id: &str, type_id: &str) -> Result<(), Edi
     let old = network.processor(id).ok_or_else(unknown)?.clone();
     let inputs: Vec<Connection> = network.inputs(id).cloned().collect();
     let outputs: Vec<Connection> = network.outputs(id).cloned().collect();
-    let links: Vec<_> = network.links().iter().filter(|l| l.a.processor == id || l.b.processor == id).cloned().collect();
+    let links: Vec<_> =
+        network.links().iter().filter(|l| l.a.processor == id || l.b.processor == id).cloned().collect();
     network.remove(id)?;
     network.add(type_id, id)?;
     network.set_position(id, old.position())?;

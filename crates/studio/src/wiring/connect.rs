@@ -71,7 +71,11 @@ pub fn re_plug(network: &mut Network, old: &Connection, new: &Connection) -> Res
 pub fn verdict(network: &Network, one: &End, other: &End) -> Result<(), String> {
     let Some(wire) = one.wire(other) else {
         let kind = if matches!(one, End::Outport(_)) { "outputs" } else { "inputs" };
-        return Err(format!("{} and {} are both {kind}; connect an output to an input.", one.address(), other.address()));
+        return Err(format!(
+            "{} and {} are both {kind}; connect an output to an input.",
+            one.address(),
+            other.address()
+        ));
     };
     match can_connect(network, &wire.from, &wire.to) {
         // Only the wire that goes away was in the way, unless a cycle hides behind it.

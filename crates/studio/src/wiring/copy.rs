@@ -45,8 +45,12 @@ pub fn paste(network: &mut Network, text: &str, at: [f64; 2]) -> Result<BTreeSet
 /// # Errors
 /// One of them is of an unknown type.
 pub fn duplicate(network: &mut Network, ids: &BTreeSet<String>) -> Result<BTreeSet<String>, EditError> {
-    let from_outside: Vec<Connection> =
-        ids.iter().flat_map(|id| network.inputs(id)).filter(|wire| !ids.contains(&wire.from.processor)).cloned().collect();
+    let from_outside: Vec<Connection> = ids
+        .iter()
+        .flat_map(|id| network.inputs(id))
+        .filter(|wire| !ids.contains(&wire.from.processor))
+        .cloned()
+        .collect();
     let new = merge(network, &part(network, ids), [40.0, 40.0])?;
     for wire in from_outside {
         if let Some(to) = renamed(&wire.to, &new) {

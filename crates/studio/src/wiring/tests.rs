@@ -55,7 +55,10 @@ fn a_taken_inport_is_fed_anew_and_cycles_are_refused_all_the_same() {
     assert!(!wires(&network).contains(&"source.volume -> proxy.volume".to_owned()));
     let end = |text: &str| End::Outport(text.parse().expect("an address"));
     let entry = End::Inport("traversal.entry".parse().expect("an address"));
-    assert_eq!(verdict(&network, &end("view.entry"), &entry), Err("view.entry and traversal.entry are already connected.".into()));
+    assert_eq!(
+        verdict(&network, &end("view.entry"), &entry),
+        Err("view.entry and traversal.entry are already connected.".into())
+    );
     let reason = verdict(&network, &end("proxy.geometry"), &entry).expect_err("another type");
     assert!(reason.contains("proxy.geometry gives a geometry, but traversal.entry takes"), "{reason}");
     add(&mut network, "background", [0.0, 0.0]).expect("added");
@@ -69,7 +72,8 @@ fn a_taken_inport_is_fed_anew_and_cycles_are_refused_all_the_same() {
 fn only_processors_that_fit_are_offered() {
     let network = chain();
     let registry = network.registry().clone();
-    let at = |end: End| fitting(&registry, &network, &end).iter().map(|fit| fit.declaration.to_owned()).collect::<Vec<_>>();
+    let at =
+        |end: End| fitting(&registry, &network, &end).iter().map(|fit| fit.declaration.to_owned()).collect::<Vec<_>>();
     let after_proxy = at(End::Outport("proxy.geometry".parse().expect("an address")));
     assert_eq!(after_proxy, ["entry_exit_points"]);
     let before_proxy = at(End::Inport("proxy.volume".parse().expect("an address")));

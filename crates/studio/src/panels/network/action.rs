@@ -72,7 +72,9 @@ impl NetworkPanel {
             }
             Action::SelectWire(wire, true) => drop(self.wires.insert(wire)),
             Action::SelectWire(wire, false) => drop(self.wires.remove(&wire)),
-            Action::SelectAll => session.selection = session.network().processors().map(|p| p.id().to_owned()).collect(),
+            Action::SelectAll => {
+                session.selection = session.network().processors().map(|p| p.id().to_owned()).collect()
+            }
             Action::Hold(end) => self.drag = Some(Drag::start(session.network(), end)),
             Action::Connect(wire, held) => connect(session, &wire, held.as_ref()),
             Action::Cut(wire) => cut(session, &wire),
@@ -124,9 +126,9 @@ fn add(session: &mut Session, action: Action) {
             network.set_property(&id, "file", Value::Text(file))?;
             Ok(one(id))
         }),
-        Action::Replace(id, type_id) => drop(session.edit(&format!("replace {id}"), |network| {
-            wiring::replace(network, &id, &type_id)
-        })),
+        Action::Replace(id, type_id) => {
+            drop(session.edit(&format!("replace {id}"), |network| wiring::replace(network, &id, &type_id)))
+        }
         Action::Duplicate if !session.selection.is_empty() => {
             let ids = session.selection.clone();
             select_new(session, "duplicate", |network| wiring::duplicate(network, &ids));

@@ -21,8 +21,10 @@ impl NetworkPanel {
             let rect = *self.geometry.nodes.get(id)?;
             let declaration = processor.declaration();
             let offset = |end: &End| self.geometry.sockets.get(end).map_or(f32::NAN, |at| at.y - rect.top());
-            let inputs = declaration.map(|d| d.inports.iter().map(|p| offset(&End::Inport((id, p.id.as_str()).into()))));
-            let outputs = declaration.map(|d| d.outports.iter().map(|p| offset(&End::Outport((id, p.id.as_str()).into()))));
+            let inputs =
+                declaration.map(|d| d.inports.iter().map(|p| offset(&End::Inport((id, p.id.as_str()).into()))));
+            let outputs =
+                declaration.map(|d| d.outports.iter().map(|p| offset(&End::Outport((id, p.id.as_str()).into()))));
             let node = LayoutNode::new(rect.size())
                 .input_offsets(inputs.map(Iterator::collect).unwrap_or_default())
                 .output_offsets(outputs.map(Iterator::collect).unwrap_or_default());

@@ -86,7 +86,8 @@ impl Drag {
     /// The port of a processor that a wire let go on its node means: the first that fits, else the first.
     fn best_of(&self, processor: &str) -> Option<&End> {
         let own = processor == self.anchor.address().processor;
-        let mut ports = self.verdicts.keys().filter(|end| !own && end.address().processor == processor && self.opposite(end));
+        let mut ports =
+            self.verdicts.keys().filter(|end| !own && end.address().processor == processor && self.opposite(end));
         let first = ports.clone().next();
         ports.find(|end| self.fits(end)).or(first)
     }

@@ -8,6 +8,8 @@ mod menus;
 mod node;
 mod scene;
 mod state;
+mod text;
+mod waiting;
 
 use std::collections::{BTreeSet, HashSet};
 

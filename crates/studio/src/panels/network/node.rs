@@ -1,12 +1,11 @@
 //! The look of a node: a card with its name, its state, and a row for each port.
 
-use std::sync::Arc;
-
-use egui::{Color32, CornerRadius, FontId, Galley, Pos2, Rect, Response, Sense, Stroke, Ui, Vec2};
+use egui::{Color32, CornerRadius, Painter, Pos2, Rect, Response, Sense, Stroke, Ui, Vec2};
 use egui_graph::SocketLayout;
 use egui_graph::node::NodeInteraction;
 
 use super::state::State;
+use super::text::Text;
 
 /// Height of the part with the name, points.
 const HEAD: f32 = 40.0;
@@ -20,6 +19,12 @@ const WIDTH: f32 = 150.0;
 const MARGIN: f32 = 14.0;
 /// Zoom below which a node shows its name only, large.
 const FAR: f32 = 0.7;
+/// Zoom below which the names of ports cannot be read anyway.
+const BLIND: f32 = 0.5;
+/// Heights of the fonts of the name, of the type and of ports.
+const TITLE: f32 = 13.5;
+const KIND: f32 = 11.0;
+const PORT: f32 = 12.0;
 /// Radius of a socket.
 const SOCKET: f32 = 5.0;
 
@@ -88,99 +93,86 @@ pub fn frame(ui: &egui::Style, state: &State, interaction: NodeInteraction) -> e
 impl Card {
     /// Draws the contents and says where the sockets are.
     pub fn show(&self, ui: &mut Ui, sockets: &mut SocketLayout) {
-        let texts = Texts::lay_out(self, ui);
         let rows = self.inports.len().max(self.outports.len());
         let foot = if rows > 0 { FOOT } else { 0.0 };
-        let (rect, _) =
-            ui.allocate_exact_size(Vec2::new(texts.width(), HEAD + rows as f32 * ROW + foot), Sense::hover());
-        self.head(ui, rect, &texts);
-        let row = |index: usize| rect.top() + HEAD + (index as f32 + 0.5) * ROW;
-        for (index, galley) in texts.inports.into_iter().enumerate() {
-            sockets.input_at(index, row(index));
-            let at = Pos2::new(rect.left() + MARGIN, row(index) - 0.5 * galley.size().y);
-            ui.painter().galley(at, galley, Color32::PLACEHOLDER);
+        let size = Vec2::new(self.width(ui.painter()), HEAD + rows as f32 * ROW + foot);
+        let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+        self.mark(ui.painter(), rect);
+        self.head(ui, rect);
+        for (index, port) in self.inports.iter().enumerate() {
+            sockets.input_at(index, row(rect, index));
+            self.port(ui, rect, index, port, 0.0);
         }
-        for (index, galley) in texts.outports.into_iter().enumerate() {
-            sockets.output_at(index, row(index));
-            let at = Pos2::new(rect.right() - MARGIN - galley.size().x, row(index) - 0.5 * galley.size().y);
-            ui.painter().galley(at, galley, Color32::PLACEHOLDER);
+        for (index, port) in self.outports.iter().enumerate() {
+            sockets.output_at(index, row(rect, index));
+            self.port(ui, rect, index, port, 1.0);
         }
     }
 
-    fn head(&self, ui: &Ui, rect: Rect, texts: &Texts) {
-        let painter = ui.painter();
+    fn port(&self, ui: &Ui, rect: Rect, index: usize, port: &Port, side: f32) {
+        if self.zoom < BLIND {
+            return;
+        }
+        let color = match port.light {
+            Light::Dim => ui.visuals().weak_text_color().gamma_multiply(0.6),
+            _ => ui.visuals().text_color(),
+        };
+        let text = Text::new(ui.painter(), &port.label, PORT, color, self.zoom);
+        let left = rect.left() + MARGIN + side * (rect.width() - 2.0 * MARGIN - text.size().x);
+        let top = row(rect, index) - 0.5 * text.size().y;
+        text.paint(ui.painter(), Pos2::new(left, top));
+    }
+
+    fn head(&self, ui: &Ui, rect: Rect) {
+        let (painter, visuals) = (ui.painter(), ui.visuals());
         let (left, right) = (rect.left() + MARGIN, rect.right() - MARGIN);
+        let title = |size| Text::new(painter, &self.title, size, visuals.strong_text_color(), self.zoom);
         if self.zoom < FAR {
             // From afar only the name can be read, if it is large.
             let size = (11.0 / self.zoom).min(28.0);
-            let title = |size| {
-                let color = ui.visuals().strong_text_color();
-                painter.layout_no_wrap(self.title.clone(), FontId::proportional(size), color)
-            };
-            let large = title(size);
             let room = right - left - 16.0;
-            let galley = if large.size().x > room { title(size * room / large.size().x) } else { large };
-            let top = rect.top() + 0.5 * (HEAD - galley.size().y);
-            painter.galley(Pos2::new(left, top), galley, Color32::PLACEHOLDER);
-        } else {
-            painter.galley(Pos2::new(left, rect.top() + 6.0), texts.title.clone(), Color32::PLACEHOLDER);
-            painter.galley(Pos2::new(left, rect.top() + 22.0), texts.kind.clone(), Color32::PLACEHOLDER);
-            let time = Pos2::new(right - texts.time.size().x, rect.top() + 22.0);
-            painter.galley(time, texts.time.clone(), Color32::PLACEHOLDER);
+            let text = title(size * (room / title(size).size().x).min(1.0));
+            let top = rect.top() + 0.5 * (HEAD - text.size().y);
+            return text.paint(painter, Pos2::new(left, top));
         }
-        let mark = Pos2::new(right - 4.0, rect.top() + 14.0);
+        title(TITLE).paint(painter, Pos2::new(left, rect.top() + 6.0));
+        let small = |text: &str| Text::new(painter, text, KIND, visuals.weak_text_color(), self.zoom);
+        small(&self.kind).paint(painter, Pos2::new(left, rect.top() + 22.0));
+        let time = small(&self.time);
+        let start = right - time.size().x;
+        time.paint(painter, Pos2::new(start, rect.top() + 22.0));
+    }
+
+    /// The state, as a mark in the corner and a bar for progress.
+    fn mark(&self, painter: &Painter, rect: Rect) {
+        let at = Pos2::new(rect.right() - MARGIN - 4.0, rect.top() + 14.0);
         match &self.state {
             State::Running(part) => {
-                painter.circle_stroke(mark, 4.0, Stroke::new(1.5, self.state.color()));
-                let bar = Rect::from_min_size(
-                    Pos2::new(rect.left(), rect.top() + HEAD - 3.0),
-                    Vec2::new(rect.width() * part.clamp(0.02, 1.0), 2.0),
-                );
+                painter.circle_stroke(at, 4.0, Stroke::new(1.5, self.state.color()));
+                let start = Pos2::new(rect.left(), rect.top() + HEAD - 3.0);
+                let bar = Rect::from_min_size(start, Vec2::new(rect.width() * part.clamp(0.02, 1.0), 2.0));
                 painter.rect_filled(bar, 1.0, self.state.color());
             }
-            State::Idle => drop(painter.circle_stroke(mark, 3.5, Stroke::new(1.5, self.state.color()))),
-            _ => drop(painter.circle_filled(mark, 4.0, self.state.color())),
-        }
-    }
-}
-
-/// The texts of a node, laid out.
-struct Texts {
-    title: Arc<Galley>,
-    kind: Arc<Galley>,
-    time: Arc<Galley>,
-    inports: Vec<Arc<Galley>>,
-    outports: Vec<Arc<Galley>>,
-}
-
-impl Texts {
-    fn lay_out(card: &Card, ui: &Ui) -> Self {
-        let (strong, text, weak) =
-            (ui.visuals().strong_text_color(), ui.visuals().text_color(), ui.visuals().weak_text_color());
-        let line = |text: &str, size: f32, color: Color32| {
-            ui.painter().layout_no_wrap(text.to_owned(), FontId::proportional(size), color)
-        };
-        let port = |port: &Port| {
-            let color = if port.light == Light::Dim { weak.gamma_multiply(0.6) } else { text };
-            line(&port.label, 12.0, color)
-        };
-        Self {
-            title: line(&card.title, 13.5, strong),
-            kind: line(&card.kind, 11.0, weak),
-            time: line(&card.time, 11.0, weak),
-            inports: card.inports.iter().map(port).collect(),
-            outports: card.outports.iter().map(port).collect(),
+            State::Idle => drop(painter.circle_stroke(at, 3.5, Stroke::new(1.5, self.state.color()))),
+            _ => drop(painter.circle_filled(at, 4.0, self.state.color())),
         }
     }
 
-    fn width(&self) -> f32 {
-        let column = |texts: &[Arc<Galley>]| texts.iter().map(|text| text.size().x).fold(0.0, f32::max);
-        let title = self.title.size().x + 20.0;
-        let kind = self.kind.size().x + 12.0 + self.time.size().x;
+    /// The width that all texts fit in, the same at every zoom.
+    fn width(&self, painter: &Painter) -> f32 {
+        let width = |text: &str, size| Text::new(painter, text, size, Color32::PLACEHOLDER, 1.0).size().x;
+        let column = |ports: &[Port]| ports.iter().map(|port| width(&port.label, PORT)).fold(0.0, f32::max);
+        let title = width(&self.title, TITLE) + 20.0;
+        // Room for any time, so that nothing moves when one gets longer.
+        let kind = width(&self.kind, KIND) + 60.0;
         let ports = column(&self.inports) + 16.0 + column(&self.outports);
-        // Whole pairs of points, so that a time that grows by a digit rarely moves anything.
-        (0.5 * (2.0 * MARGIN + title.max(kind).max(ports)).max(WIDTH)).ceil() * 2.0
+        (2.0 * MARGIN + title.max(kind).max(ports)).max(WIDTH).ceil()
     }
+}
+
+/// The height at which a row of ports lies.
+fn row(rect: Rect, index: usize) -> f32 {
+    rect.top() + HEAD + (index as f32 + 0.5) * ROW
 }
 
 /// Draws a socket over the one of the library, which knows one colour per node only.

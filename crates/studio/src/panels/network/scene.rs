@@ -14,6 +14,7 @@ use super::geometry::{Geometry, WIRE};
 use super::menus;
 use super::node::{self, Card, Light, Port};
 use super::state::{State, cost, short};
+use super::waiting::waiting;
 use crate::session::Session;
 use crate::theme;
 use crate::wiring::End;
@@ -44,6 +45,7 @@ pub struct Scene<'a> {
     ports: BTreeMap<&'a str, Ports<'a>>,
     fed: BTreeSet<&'a Address>,
     feeding: BTreeSet<&'a Address>,
+    waiting: BTreeSet<&'a str>,
     /// A wire in the user's hand.
     pub drag: Option<&'a Drag>,
     /// What that wire would do.
@@ -74,6 +76,7 @@ impl<'a> Scene<'a> {
             ports: network.processors().map(|p| (p.id(), ports(network, p))).collect(),
             fed: network.connections().iter().map(|wire| &wire.to).collect(),
             feeding: network.connections().iter().map(|wire| &wire.from).collect(),
+            waiting: waiting(network),
             drag: None,
             target: None,
             selected,
@@ -184,15 +187,13 @@ impl<'a> Scene<'a> {
                 light: self.light(&end),
             }
         };
-        let inports: Vec<Port> = ports.inports.iter().map(inport).collect();
-        let open = inports.iter().any(|port| !port.optional && !port.connected);
         let run = self.session.engine.results.runs.get(id);
         Card {
             title: processor.label().unwrap_or(id).to_owned(),
             kind: declaration.map_or(processor.type_id(), |d| d.label.as_str()).to_owned(),
-            state: State::of(self.session, id, open),
+            state: State::of(self.session, id, self.waiting.contains(id)),
             time: run.map(|run| short(cost(run))).unwrap_or_default(),
-            inports,
+            inports: ports.inports.iter().map(inport).collect(),
             outports: ports.outports.iter().map(outport).collect(),
             zoom: self.geometry.to_window.scaling,
         }

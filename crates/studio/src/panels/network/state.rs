@@ -17,35 +17,25 @@ pub enum State {
     Running(f32),
     /// Nothing needs its result.
     Idle,
-    /// It cannot run yet, for these reasons.
-    Waiting(Vec<String>),
+    /// It cannot run yet.
+    Waiting,
     /// It failed.
     Failed(String),
 }
 
 impl State {
-    /// The state of a processor as of the last evaluation. `open`: whether a required inport is not connected now.
-    pub fn of(session: &Session, id: &str, open: bool) -> Self {
+    /// The state of a processor as of the last evaluation. `waits`: whether it cannot run now.
+    pub fn of(session: &Session, id: &str, waits: bool) -> Self {
         let engine = &session.engine;
         let report = &engine.results.report;
         if let Some(progress) = engine.progress.get(id) {
             return Self::Running(progress.done as f32 / progress.total.max(1) as f32);
         }
-        if let Some(error) = report.failed.get(id) {
-            return Self::Failed(error.to_string());
-        }
-        if let Some(reasons) = report.not_ready.get(id) {
-            return Self::Waiting(reasons.clone());
-        }
-        let ran = engine.results.runs.contains_key(id);
-        if ran && !open {
-            return Self::Ready;
-        }
-        // Following the whole chain takes time in a large network, so only where the evaluation had nothing to say.
-        match readiness(session.network(), id) {
-            Readiness::NotReady(reasons) => Self::Waiting(reasons),
-            Readiness::Ready if ran => Self::Ready,
-            Readiness::Ready => Self::Idle,
+        match report.failed.get(id) {
+            Some(error) => Self::Failed(error.to_string()),
+            None if waits || report.not_ready.contains_key(id) => Self::Waiting,
+            None if engine.results.runs.contains_key(id) => Self::Ready,
+            None => Self::Idle,
         }
     }
 
@@ -55,7 +45,7 @@ impl State {
             Self::Ready => theme::READY,
             Self::Running(_) => theme::port_color(rayloom_network::PortType::Image(rayloom_network::ImageKind::Color)),
             Self::Idle => Color32::from_gray(0x80),
-            Self::Waiting(_) => theme::WARNING,
+            Self::Waiting => theme::WARNING,
             Self::Failed(_) => theme::ERROR,
         }
     }
@@ -66,7 +56,7 @@ impl State {
             Self::Ready => "ready",
             Self::Running(_) => "running",
             Self::Idle => "idle",
-            Self::Waiting(_) => "waiting",
+            Self::Waiting => "waiting",
             Self::Failed(_) => "failed",
         }
     }
@@ -101,9 +91,10 @@ pub fn tooltip(ui: &mut Ui, session: &Session, id: &str) {
         ui.label(&declaration.help);
     }
     ui.separator();
-    let state = State::of(session, id, true);
+    let reasons = reasons(session, id);
+    let state = State::of(session, id, !reasons.is_empty());
     match &state {
-        State::Waiting(reasons) => {
+        State::Waiting => {
             for reason in reasons {
                 ui.colored_label(state.color(), reason);
             }
@@ -118,6 +109,15 @@ pub fn tooltip(ui: &mut Ui, session: &Session, id: &str) {
     }
     if let Some(run) = session.engine.results.runs.get(id) {
         last_run(ui, run);
+    }
+}
+
+/// Why a processor waits: what data brought to light, else what the network says.
+fn reasons(session: &Session, id: &str) -> Vec<String> {
+    match (session.engine.results.report.not_ready.get(id), readiness(session.network(), id)) {
+        (_, Readiness::NotReady(reasons)) => reasons,
+        (Some(reasons), Readiness::Ready) => reasons.clone(),
+        (None, Readiness::Ready) => Vec::new(),
     }
 }
 
