@@ -12,6 +12,7 @@ use crate::engine::Engine;
 use crate::panels::{self, Pane, Panels};
 use crate::session::{Mode, Session, Severity};
 use crate::theme;
+use crate::visualization::Application;
 
 const OPEN: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::O);
 const SAVE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::S);
@@ -113,6 +114,10 @@ impl Studio {
     fn switch_mode(&mut self) {
         self.session.mode = match self.session.mode {
             Mode::Development => Mode::Visualization,
+            Mode::Visualization if Application::of(self.session.network()).0.locked => {
+                self.session.tell(Severity::Note, "this file is locked in visualization mode; open it in development mode");
+                Mode::Visualization
+            }
             Mode::Visualization => Mode::Development,
         };
     }

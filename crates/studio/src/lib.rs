@@ -14,6 +14,7 @@ mod palette;
 mod panels;
 mod session;
 mod theme;
+mod visualization;
 mod wiring;
 
 pub use app::{Options, Studio};

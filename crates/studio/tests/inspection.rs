@@ -91,10 +91,11 @@ fn a_pinned_inspector_reads_the_pixel_under_the_pointer() {
     let mut harness = window::studio(window::flagship());
     harness.state_mut().session.to_open.push(rayloom_studio::Pane::Inspector(("view", "entry").into()));
     harness.state_mut().session.to_open.push(rayloom_studio::Pane::Inspector(("traversal", "image").into()));
-    window::wait_for(&mut harness, "colours ·");
-    window::wait_for(&mut harness, "entry points ·");
+    window::wait_for(&mut harness, "Coordinates");
+    window::wait_for(&mut harness, "Point at a pixel");
+    window::keep_picture(&mut harness, "inspectors");
     let heading = harness.query_all_by_label_contains("Point at a pixel").last().expect("a hint").rect();
-    harness.hover_at(heading.left_top() + egui::vec2(200.0, -60.0));
-    window::wait_for(&mut harness, "alpha ");
+    harness.hover_at(heading.left_top() + egui::vec2(170.0, -100.0));
+    window::wait_for(&mut harness, "depth ");
     window::keep_picture(&mut harness, "inspectors");
 }

@@ -4,35 +4,39 @@ use egui_tiles::{Container, LinearDir, Tile, TileId, Tiles, Tree};
 
 use super::Pane;
 
-/// Opens a pane, or brings it to the front if it is open. Inspectors lie side by side, everything else in tabs.
+/// Opens a pane, or brings it to the front if it is open. Inspectors lie side by side below the network, everything else in
+/// tabs with the properties.
 pub fn open(tree: &mut Tree<Pane>, pane: Pane) {
     if let Some(known) = tree.tiles.find_pane(&pane) {
         tree.set_visible(known, true);
         tree.make_active(|tile, _| tile == known);
         return;
     }
-    let neighbour = neighbour(tree, &pane);
-    let beside = matches!(pane, Pane::Inspector(_));
+    let first = |wanted: fn(&Pane) -> bool| find(tree, wanted);
+    let place = match pane {
+        Pane::Inspector(_) => first(|pane| matches!(pane, Pane::Inspector(_)))
+            .map(|inspector| (inspector, Some(LinearDir::Horizontal)))
+            .or_else(|| {
+                first(|pane| matches!(pane, Pane::Network)).map(|network| (network, Some(LinearDir::Vertical)))
+            }),
+        _ => first(|pane| matches!(pane, Pane::Properties)).map(|properties| (properties, None)),
+    };
     let new = tree.tiles.insert_pane(pane);
-    match neighbour.or(tree.root()) {
+    match place.or(tree.root().map(|root| (root, Some(LinearDir::Horizontal)))) {
         None => *tree = Tree::new(tree.id(), new, std::mem::take(&mut tree.tiles)),
-        Some(neighbour) if beside => place_beside(tree, neighbour, new),
-        Some(neighbour) => place_in_tabs(tree, neighbour, new),
+        Some((neighbour, Some(dir))) => place_beside(tree, neighbour, new, dir),
+        Some((neighbour, None)) => place_in_tabs(tree, neighbour, new),
     }
     tree.make_active(|tile, _| tile == new);
 }
 
-/// The pane that a new one belongs to: the newest inspector for an inspector, else the messages.
-fn neighbour(tree: &Tree<Pane>, pane: &Pane) -> Option<TileId> {
-    let find = |wanted: fn(&Pane) -> bool| {
-        let panes = tree.tiles.iter().filter_map(|(id, tile)| match tile {
-            Tile::Pane(pane) if wanted(pane) => Some(*id),
-            _ => None,
-        });
-        panes.max_by_key(|id| id.0)
-    };
-    let inspector = matches!(pane, Pane::Inspector(_)).then(|| find(|pane| matches!(pane, Pane::Inspector(_))));
-    inspector.flatten().or_else(|| find(|pane| matches!(pane, Pane::Messages)))
+/// The newest pane of a kind.
+fn find(tree: &Tree<Pane>, wanted: fn(&Pane) -> bool) -> Option<TileId> {
+    let panes = tree.tiles.iter().filter_map(|(id, tile)| match tile {
+        Tile::Pane(pane) if wanted(pane) => Some(*id),
+        _ => None,
+    });
+    panes.max_by_key(|id| id.0)
 }
 
 /// The tabs that hold a tile, or itself.
@@ -45,20 +49,22 @@ fn place_in_tabs(tree: &mut Tree<Pane>, neighbour: TileId, new: TileId) {
     let tabs = tabs_of(&tree.tiles, neighbour);
     match tree.tiles.get_mut(tabs) {
         Some(Tile::Container(container @ Container::Tabs(_))) => container.add_child(new),
-        _ => place_beside(tree, neighbour, new),
+        _ => place_beside(tree, neighbour, new, LinearDir::Horizontal),
     }
 }
 
-fn place_beside(tree: &mut Tree<Pane>, neighbour: TileId, new: TileId) {
+/// To the right of a pane, or below it, half of its room.
+fn place_beside(tree: &mut Tree<Pane>, neighbour: TileId, new: TileId, dir: LinearDir) {
     let neighbour = tabs_of(&tree.tiles, neighbour);
     let parent = tree.tiles.parent_of(neighbour);
     if let Some(Tile::Container(Container::Linear(linear))) = parent.and_then(|parent| tree.tiles.get_mut(parent))
-        && linear.dir == LinearDir::Horizontal
+        && linear.dir == dir
+        && dir == LinearDir::Horizontal
     {
         linear.add_child(new);
         return;
     }
-    let row = tree.tiles.insert_horizontal_tile(vec![neighbour, new]);
+    let row = tree.tiles.insert_container(egui_tiles::Linear::new(dir, vec![neighbour, new]));
     match parent.and_then(|parent| tree.tiles.get_mut(parent)) {
         Some(Tile::Container(container)) => {
             // The parent has this child: it was found by it.

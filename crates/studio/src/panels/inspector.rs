@@ -46,7 +46,7 @@ impl Default for View {
             center: Vec2::splat(0.5),
             other: None,
             gain: 10.0,
-            numbers: true,
+            numbers: false,
             pixel: None,
         }
     }
@@ -259,7 +259,8 @@ impl View {
     /// The value of the pixel under the pointer.
     fn readout(&self, ui: &mut egui::Ui, session: &mut Session, outport: &Address, image: &Image) {
         let Some(pixel) = &self.pixel else {
-            ui.weak("Point at a pixel to read it. The wheel magnifies, a drag moves, a double click fits.");
+            ui.weak("Point at a pixel to read it.")
+                .on_hover_text("The wheel magnifies, a drag moves, a double click fits.");
             return;
         };
         match session.reading(ui.ctx(), &outport.to_string(), pixel).as_deref() {

@@ -1,17 +1,18 @@
 //! The panels: each shows one aspect of the session and edits it.
 
-mod canvas;
+pub(crate) mod canvas;
 mod dock;
 mod inspector;
 mod messages;
 mod network;
 mod processors;
-mod properties;
+pub(crate) mod properties;
 
 use egui_tiles::{Linear, LinearDir, TileId, Tiles, Tree};
 use rayloom_network::Address;
 
 use crate::session::Session;
+use crate::visualization::Visualization;
 
 pub use dock::open;
 
@@ -54,6 +55,7 @@ pub struct Panels {
     canvas: canvas::CanvasPanel,
     inspectors: inspector::Inspectors,
     properties: properties::PropertiesPanel,
+    visualization: Visualization,
 }
 
 impl Panels {
@@ -75,7 +77,7 @@ impl Panels {
 
     /// Shows canvases and exposed properties, nothing of the network.
     pub fn visualization(&mut self, ui: &mut egui::Ui, session: &mut Session) {
-        self.canvas.show(ui, session);
+        self.visualization.show(ui, session);
     }
 }
 

@@ -7,6 +7,7 @@ mod choice;
 mod dialog;
 mod editor;
 mod exchange;
+mod exposed;
 mod file;
 mod header;
 mod histograms;

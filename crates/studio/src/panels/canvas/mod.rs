@@ -1,0 +1,179 @@
+//! The picture of a canvas, and what the pointer and keys do in it.
+
+mod camera;
+mod slice;
+
+use std::sync::Arc;
+
+use egui::{Align2, Color32, FontId, Key, Rect, Sense, Vec2};
+use rayloom_network::{Network, PropertyKind, Value};
+use rayloom_processors::Image;
+
+use crate::display::Look;
+use crate::inspect::image::paint;
+use crate::session::Session;
+use camera::Held;
+
+/// What keys and the pointer do, for F1.
+const HELP: [(&str, &str); 12] = [
+    ("Drag", "turn; slices: place the crosshair"),
+    ("Shift or middle drag", "move"),
+    ("Right drag, wheel", "zoom; slices: the wheel goes through, Ctrl and wheel zoom"),
+    ("Double click", "centre on the surface"),
+    ("A, Home", "show everything"),
+    ("O", "orthographic or perspective"),
+    ("1, 3, 7", "from the front, the right, above"),
+    ("Q, E", "roll"),
+    ("Arrows", "turn by 15 degrees"),
+    ("F5", "visualization or development mode"),
+    ("F1", "this list"),
+    ("Ctrl Z, Ctrl Shift Z", "undo, redo"),
+];
+
+/// What the panel remembers.
+#[derive(Default)]
+pub struct CanvasPanel {
+    /// Id of the canvas shown; the first one when there is no such.
+    canvas: Option<String>,
+    camera: Held,
+    shows_help: bool,
+}
+
+/// What the user moves in a canvas.
+enum Behind {
+    /// A camera: processor, property.
+    Camera(String, String),
+    /// A slice view.
+    Slice(String),
+}
+
+impl CanvasPanel {
+    /// Shows the picture of the chosen canvas and lets the user move the camera behind it.
+    pub fn show(&mut self, ui: &mut egui::Ui, session: &mut Session) {
+        let Some(canvas) = self.choose(ui, session) else {
+            ui.centered_and_justified(|ui| ui.label("The network has no canvas."));
+            return;
+        };
+        self.show_one(ui, session, &canvas);
+    }
+
+    /// Shows the picture of a canvas in all of the space.
+    pub fn show_one(&mut self, ui: &mut egui::Ui, session: &mut Session, canvas: &str) {
+        let (area, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Image, true, format!("canvas {canvas}")));
+        let scale = ui.ctx().pixels_per_point();
+        let pixels = [area.width(), area.height()].map(|points| (points * scale).round().clamp(1.0, 8192.0) as u32);
+        let largest = session.canvas_size.unwrap_or([1, 1]);
+        session.canvas_size = Some([pixels[0].max(largest[0]), pixels[1].max(largest[1])]);
+        ui.painter().rect_filled(area, 0.0, Color32::BLACK);
+        let Some(image) = session.engine.results.canvases.get(canvas).cloned() else {
+            let (text, color) = absence(session, canvas);
+            let galley = ui.painter().layout(text, FontId::proportional(14.0), color, area.width() - 24.0);
+            ui.painter().galley(area.center() - 0.5 * galley.size(), galley, color);
+            return;
+        };
+        let shown = fitted(area, &image);
+        paint(ui, shown, session.display.picture(&image, Look::default()));
+        match behind(session.network(), canvas) {
+            Some(Behind::Camera(processor, property)) => {
+                self.camera.interact(ui, &response, shown, &image, session, [canvas, &processor, &property]);
+            }
+            Some(Behind::Slice(processor)) => slice::interact(ui, &response, shown, session, &processor),
+            None => {}
+        }
+        self.help(ui, &response, area);
+    }
+
+    /// The canvas to show; a choice where there are several.
+    fn choose(&mut self, ui: &mut egui::Ui, session: &Session) -> Option<String> {
+        let ids: Vec<_> = canvases(session.network()).collect();
+        if self.canvas.as_deref().is_none_or(|chosen| !ids.contains(&chosen)) {
+            self.canvas = ids.first().map(|id| (*id).to_owned());
+        }
+        if ids.len() > 1 {
+            ui.horizontal(|ui| {
+                for id in &ids {
+                    ui.selectable_value(&mut self.canvas, Some((*id).to_owned()), *id);
+                }
+            });
+        }
+        self.canvas.clone()
+    }
+
+    /// F1 lists what keys and the pointer do.
+    fn help(&mut self, ui: &egui::Ui, response: &egui::Response, area: Rect) {
+        if response.hovered() && ui.input(|input| input.key_pressed(Key::F1)) {
+            self.shows_help = !self.shows_help;
+        }
+        if !self.shows_help {
+            return;
+        }
+        let font = FontId::proportional(13.0);
+        let line = 20.0;
+        let size = Vec2::new(520.0, line * HELP.len() as f32 + 24.0).min(area.size());
+        let panel = Rect::from_center_size(area.center(), size);
+        let painter = ui.painter().with_clip_rect(area);
+        painter.rect_filled(panel, 6.0, Color32::from_black_alpha(210));
+        for (row, (keys, effect)) in HELP.iter().enumerate() {
+            let left = panel.min + Vec2::new(16.0, 12.0 + line * row as f32);
+            painter.text(left, Align2::LEFT_TOP, *keys, font.clone(), Color32::WHITE);
+            painter.text(
+                left + Vec2::new(170.0, 0.0),
+                Align2::LEFT_TOP,
+                *effect,
+                font.clone(),
+                Color32::from_gray(190),
+            );
+        }
+    }
+}
+
+/// The largest place for an image.
+fn fitted(area: Rect, image: &Arc<Image>) -> Rect {
+    let size = Vec2::from(image.size().map(|pixels| pixels as f32));
+    Rect::from_center_size(area.center(), size * (area.width() / size.x).min(area.height() / size.y))
+}
+
+/// Why there is no picture.
+fn absence(session: &Session, canvas: &str) -> (String, Color32) {
+    let report = &session.engine.results.report;
+    match report.not_ready.get(canvas).and_then(|reasons| reasons.first()) {
+        Some(reason) => (reason.clone(), Color32::GRAY),
+        None if session.engine.is_busy() => ("...".into(), Color32::GRAY),
+        None => ("no picture".into(), Color32::GRAY),
+    }
+}
+
+/// Ids of the sinks that show an image.
+fn canvases(network: &Network) -> impl Iterator<Item = &str> {
+    network.processors().filter(|processor| processor.type_id() == "canvas").map(|processor| processor.id())
+}
+
+/// The camera or slice nearest upstream of a canvas.
+fn behind(network: &Network, canvas: &str) -> Option<Behind> {
+    let mut queue = std::collections::VecDeque::from([canvas.to_owned()]);
+    let mut seen = std::collections::BTreeSet::new();
+    while let Some(id) = queue.pop_front() {
+        if !seen.insert(id.clone()) {
+            continue;
+        }
+        let processor = network.processor(&id)?;
+        if processor.type_id() == "slice_view" {
+            return Some(Behind::Slice(id));
+        }
+        let declared = processor.declaration().into_iter().flat_map(|declaration| &declaration.properties);
+        if let Some(property) = declared.into_iter().find(|property| property.kind == PropertyKind::Camera) {
+            return Some(Behind::Camera(id, property.id.clone()));
+        }
+        queue.extend(network.inputs(&id).map(|connection| connection.from.processor.clone()));
+    }
+    None
+}
+
+/// A number that a processor has.
+fn number(network: &Network, processor: &str, property: &str) -> Option<f64> {
+    match network.value(processor, property)? {
+        Value::Float(number) => Some(number),
+        _ => None,
+    }
+}

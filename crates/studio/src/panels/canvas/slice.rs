@@ -1,0 +1,169 @@
+//! Slices in the user's hand: scrolling, and a crosshair that slices of the same volume share.
+
+use egui::{Color32, PointerButton, Pos2, Rect, Stroke};
+use rayloom_network::{Network, Value};
+use rayloom_processors::Data;
+use rayloom_volume::Volume;
+
+use super::number;
+use crate::session::Session;
+
+/// Scrolled points for a step to the next voxel.
+const STEP: f32 = 12.0;
+
+/// A slice across an axis, and how it lies in the picture.
+struct Slice {
+    /// The axes of the volume across, to the right, and up.
+    axes: [usize; 3],
+    /// World units for a point of the screen.
+    per_point: f64,
+    /// World lengths of the volume's box along its axes.
+    extent: [f64; 3],
+    pan: [f64; 2],
+    middle: Pos2,
+}
+
+impl Slice {
+    fn of(network: &Network, processor: &str, volume: &Volume, shown: Rect) -> Option<Self> {
+        let axes = axes(network, processor)?;
+        let extent = (volume.dims_f64() * volume.spacing()).to_array();
+        let zoom = number(network, processor, "zoom")?;
+        let Value::Vector(pan) = network.value(processor, "pan")? else { return None };
+        let [right, up] = [extent[axes[1]], extent[axes[2]]];
+        let per_point = (right / f64::from(shown.width())).max(up / f64::from(shown.height())) / zoom;
+        Some(Self { axes, per_point, extent, pan: [*pan.first()?, *pan.get(1)?], middle: shown.center() })
+    }
+
+    /// Volume coordinates (0 to 1 in the box) to the right and up of a point of the screen.
+    fn coordinates(&self, point: Pos2) -> [f64; 2] {
+        let offset = point - self.middle;
+        let [right, up] = [f64::from(offset.x), -f64::from(offset.y)].map(|points| points * self.per_point);
+        [0.5 + (right + self.pan[0]) / self.extent[self.axes[1]], 0.5 + (up + self.pan[1]) / self.extent[self.axes[2]]]
+    }
+
+    /// The point of the screen with these volume coordinates to the right and up.
+    fn point(&self, [right, up]: [f64; 2]) -> Pos2 {
+        let x = ((right - 0.5) * self.extent[self.axes[1]] - self.pan[0]) / self.per_point;
+        let y = ((up - 0.5) * self.extent[self.axes[2]] - self.pan[1]) / self.per_point;
+        Pos2::new(self.middle.x + x as f32, self.middle.y - y as f32)
+    }
+}
+
+/// The axes across, to the right and up of a slice view; none when it is oblique.
+fn axes(network: &Network, processor: &str) -> Option<[usize; 3]> {
+    match network.value(processor, "plane")? {
+        Value::Text(plane) => match plane.as_str() {
+            "x" => Some([0, 1, 2]),
+            "y" => Some([1, 0, 2]),
+            "z" => Some([2, 0, 1]),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// The slice views across another axis of the volume that a slice view shows, with that axis.
+fn siblings(network: &Network, processor: &str) -> Vec<(String, usize)> {
+    let source = |id: &str| network.inputs(id).next().map(|connection| connection.from.clone());
+    let mine = source(processor);
+    let others = network.processors().filter(|other| other.type_id() == "slice_view" && other.id() != processor);
+    others
+        .filter(|other| source(other.id()) == mine)
+        .filter_map(|other| Some((other.id().to_owned(), axes(network, other.id())?[0])))
+        .collect()
+}
+
+/// Moves a slice view and the crosshair as the user wants.
+pub(super) fn interact(ui: &egui::Ui, response: &egui::Response, shown: Rect, session: &mut Session, processor: &str) {
+    let source = session.network().inputs(processor).next().map(|connection| connection.from.clone());
+    let Some(Data::Volume(data)) = source.and_then(|source| session.engine.results.outputs.get(&source).cloned())
+    else {
+        return;
+    };
+    let Some(slice) = Slice::of(session.network(), processor, &data.volume, shown) else { return };
+    let siblings = siblings(session.network(), processor);
+    scroll(ui, response, session, processor, data.volume.dims[slice.axes[0]]);
+    let moves = response.dragged_by(PointerButton::Middle)
+        || (response.dragged_by(PointerButton::Primary) && ui.input(|input| input.modifiers.shift));
+    if moves {
+        let delta = response.drag_delta();
+        let [x, y] = [f64::from(delta.x), f64::from(-delta.y)].map(|points| points * slice.per_point);
+        session.set(processor, "pan", Value::Vector(vec![slice.pan[0] - x, slice.pan[1] - y]));
+    } else if let Some(pointer) = response.interact_pointer_pos().filter(|_| is_held(ui, response)) {
+        place(session, &slice, &siblings, pointer);
+    }
+    crosshair(ui, shown, session.network(), &slice, &siblings);
+}
+
+fn is_held(ui: &egui::Ui, response: &egui::Response) -> bool {
+    response.is_pointer_button_down_on() && ui.input(|input| input.pointer.primary_down())
+}
+
+/// The wheel goes through the volume, voxel by voxel; with Ctrl it zooms.
+fn scroll(ui: &egui::Ui, response: &egui::Response, session: &mut Session, processor: &str, voxels: u32) {
+    if !response.hovered() {
+        return;
+    }
+    let (scroll, zoom) = ui.input(|input| (input.smooth_scroll_delta.y, input.zoom_delta()));
+    if zoom != 1.0
+        && let Some(before) = number(session.network(), processor, "zoom")
+    {
+        session.set(processor, "zoom", Value::Float((before * f64::from(zoom)).clamp(0.01, 1000.0)));
+    } else if scroll != 0.0
+        && let Some(before) = number(session.network(), processor, "position")
+    {
+        let after = before + f64::from(scroll / STEP) / f64::from(voxels);
+        session.set(processor, "position", Value::Float(after.clamp(0.0, 1.0)));
+    }
+}
+
+/// Puts the other slices through the point under the pointer.
+fn place(session: &mut Session, slice: &Slice, siblings: &[(String, usize)], pointer: Pos2) {
+    let coordinates = slice.coordinates(pointer);
+    for (sibling, axis) in siblings {
+        let direction = slice.axes[1..].iter().position(|shown| shown == axis);
+        if let Some(direction) = direction {
+            let position = coordinates[direction].clamp(0.0, 1.0);
+            session.set(sibling, "position", Value::Float(position));
+        }
+    }
+}
+
+/// Lines where the other slices cut this one.
+fn crosshair(ui: &egui::Ui, shown: Rect, network: &Network, slice: &Slice, siblings: &[(String, usize)]) {
+    let painter = ui.painter().with_clip_rect(shown);
+    for (sibling, axis) in siblings {
+        let Some(position) = number(network, sibling, "position") else { continue };
+        let stroke = Stroke::new(1.0, AXES[*axis].gamma_multiply(0.7));
+        let point = slice.point([position, position]);
+        if *axis == slice.axes[1] {
+            painter.vline(point.x, shown.y_range(), stroke);
+        } else if *axis == slice.axes[2] {
+            painter.hline(shown.x_range(), point.y, stroke);
+        }
+    }
+}
+
+/// Colours of planes across x, y and z.
+const AXES: [Color32; 3] =
+    [Color32::from_rgb(0xe0, 0x7a, 0x6a), Color32::from_rgb(0x7f, 0xbf, 0x7f), Color32::from_rgb(0x6f, 0xa8, 0xe0)];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_and_coordinates_are_inverse() {
+        let slice = Slice {
+            axes: [1, 0, 2],
+            per_point: 0.25,
+            extent: [100.0, 50.0, 80.0],
+            pan: [3.0, -4.0],
+            middle: Pos2::new(200.0, 100.0),
+        };
+        let [right, up] = slice.coordinates(slice.point([0.3, 0.8]));
+        assert!((right - 0.3).abs() < 1e-5 && (up - 0.8).abs() < 1e-5);
+        // The wheel of a mouse and the arithmetic agree about up.
+        assert!(slice.point([0.3, 0.8]).y < slice.point([0.3, 0.7]).y);
+    }
+}
