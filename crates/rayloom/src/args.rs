@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use rayloom_measure::{Standard, Vary};
 use rayloom_network::Address;
+use rayloom_reference::Reference;
 use serde_json::Value as Json;
 
 /// The extensions of the files that a picture can be written to.
@@ -31,6 +33,9 @@ pub struct Cli {
 pub enum Command {
     /// Evaluate a network and write a picture.
     Render(RenderArgs),
+    /// Measure what speed costs in accuracy: times, samples and errors of many settings, with a page that says what to
+    /// choose.
+    Measure(MeasureArgs),
     /// Say whether a network can be rendered, and if not, why. Needs no graphics adapter.
     Check {
         /// The network file (JSON).
@@ -96,6 +101,55 @@ pub struct RenderArgs {
     /// Write what the evaluation did as JSON: adapter, times and reasons of every run, rays and samples.
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,
+    /// Write what the ray traversal should show instead, computed in float64 without the graphics device: `exact`, without
+    /// samples, or `same-samples`, those that the device takes.
+    #[arg(long, value_name = "REFERENCE", value_parser = reference, conflicts_with = "stats")]
+    pub reference: Option<Reference>,
+    /// Where pictures of the reference are kept, in place of the user's cache.
+    #[arg(long, value_name = "FOLDER", requires = "reference")]
+    pub cache: Option<PathBuf>,
+}
+
+/// Arguments of `rayloom measure`.
+#[derive(Debug, Args)]
+pub struct MeasureArgs {
+    /// The network file (JSON).
+    pub network: PathBuf,
+    /// Set a property first; may be repeated, in this order. The value is JSON, or a bare word for a text.
+    #[arg(long, value_name = "PROCESSOR.PROPERTY=JSON", value_parser = setting)]
+    pub set: Vec<Setting>,
+    /// Vary a property; may be repeated: every combination of the values is measured.
+    #[arg(long, value_name = "PROCESSOR.PROPERTY=A,B,C", value_parser = vary)]
+    pub vary: Vec<Vary>,
+    /// Vary a ready knob around the network's own setting, one at a time; may be repeated: rate, integrator, sampling,
+    /// gradient, entry, volume, target, termination, skipping, or all, which is what happens when nothing is varied.
+    #[arg(long, value_name = "NAME")]
+    pub ladder: Vec<String>,
+    /// Number of camera views: the saved one and orbits around its focus.
+    #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=64))]
+    pub views: u16,
+    /// Number of timings of every setting and view, taken in turns.
+    #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub rounds: u16,
+    /// Size of the pictures in pixels.
+    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size, default_value = "256x256")]
+    pub size: [u32; 2],
+    /// What to compare with: `exact` (float64, without samples), `same-samples` (float64, the samples of each setting) or
+    /// `finest` (the device's own picture at its finest). Without it: exact where that can be drawn, else finest.
+    #[arg(long, value_name = "REFERENCE", value_parser = standard)]
+    pub reference: Option<Standard>,
+    /// The ray traversal to measure, by its outport; may be left out where there is only one.
+    #[arg(long, value_name = "PROCESSOR.PORT", value_parser = address)]
+    pub port: Option<Address>,
+    /// Where pictures of the reference are kept, in place of the user's cache.
+    #[arg(long, value_name = "FOLDER")]
+    pub cache: Option<PathBuf>,
+    /// Leave out the table that splits the error into its causes.
+    #[arg(long)]
+    pub no_budget: bool,
+    /// The folder for measurements.csv, measurements.json and report.html; made if it is not there.
+    #[arg(short, long, value_name = "FOLDER")]
+    pub output: PathBuf,
 }
 
 /// Arguments of `rayloom list`.
@@ -151,6 +205,23 @@ fn json(text: &str) -> Result<Json, String> {
 
 fn address(text: &str) -> Result<Address, String> {
     text.parse().map_err(|error: rayloom_network::AddressError| error.to_string())
+}
+
+fn vary(text: &str) -> Result<Vary, String> {
+    text.parse()
+}
+
+fn reference(text: &str) -> Result<Reference, String> {
+    Reference::from_id(text).ok_or_else(|| choices(text, &Reference::ALL.map(Reference::id)))
+}
+
+fn standard(text: &str) -> Result<Standard, String> {
+    let found = Standard::ALL.into_iter().find(|standard| standard.id() == text);
+    found.ok_or_else(|| choices(text, &Standard::ALL.map(Standard::id)))
+}
+
+fn choices(found: &str, known: &[&str]) -> String {
+    format!("there is no reference `{found}`; choose {}", known.join(" or "))
 }
 
 fn size(text: &str) -> Result<[u32; 2], String> {

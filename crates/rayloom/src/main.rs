@@ -7,10 +7,12 @@ mod environment;
 mod failure;
 mod info;
 mod list;
+mod measure;
 mod network_file;
 mod open;
 mod problems;
 mod progress;
+mod reference;
 mod render;
 mod shader;
 mod stats;
@@ -42,6 +44,7 @@ fn run(command: Option<&Command>) -> Result<String, Failure> {
     let Some(command) = command else { return open::run(None, args::StartMode::Development) };
     match command {
         Command::Render(args) => render::run(args),
+        Command::Measure(args) => measure::run(args),
         Command::Check { network } => check::run(network),
         Command::List(args) => list::run(args),
         Command::Shader { network, processor, set } => shader::run(network, processor, set),

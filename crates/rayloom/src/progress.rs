@@ -28,6 +28,21 @@ impl Line {
         }
     }
 
+    /// Shows what is being done, and which share of it, 0 to 1, is finished. May be told from any thread.
+    pub fn share(&self, what: &str, share: f64) {
+        const PARTS: f64 = 1000.0;
+        if let Some(bar) = &self.0 {
+            if bar.length().is_none()
+                && let Ok(style) = ProgressStyle::with_template("{spinner} [{bar:30}] {percent:>3} % {msg}")
+            {
+                bar.set_style(style);
+            }
+            bar.set_length(PARTS as u64);
+            bar.set_position((PARTS * share) as u64);
+            bar.set_message(what.to_owned());
+        }
+    }
+
     /// What a runner tells the progress of its processors to.
     pub fn listener(&self) -> Option<ProgressListener> {
         let bar = self.0.clone()?;

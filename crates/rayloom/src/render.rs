@@ -12,6 +12,7 @@ use crate::failure::Failure;
 use crate::network_file;
 use crate::problems;
 use crate::progress::Line;
+use crate::reference;
 use crate::stats::Stats;
 use crate::target::Target;
 
@@ -24,6 +25,9 @@ pub fn run(args: &RenderArgs) -> Result<String, Failure> {
     let files = [Some(&args.output), args.stats.as_ref()];
     files.into_iter().flatten().try_for_each(|file| check_folder(file))?;
     let network = network_file::open(&args.network, &args.set)?;
+    if let Some(reference) = args.reference {
+        return reference::render(&network, args, reference);
+    }
     let target = Target::find(&network, args.port.as_ref(), args.size)?;
     let gpu = Gpu::new(&GpuOptions::default())?;
     let adapter = gpu.describe();

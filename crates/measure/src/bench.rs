@@ -1,0 +1,126 @@
+//! A network on a device, set and looked at as a measurement needs it.
+
+use std::time::Duration;
+
+use rayloom_gpu::Gpu;
+use rayloom_network::{Address, Camera, Evaluator, Level, Network, Report, Request, Sinks, Value};
+use rayloom_processors::{Data, Runner};
+
+use crate::chain::Chain;
+use crate::{Counts, MeasureError, Setting, Subject};
+
+/// Pixels in a row, premultiplied.
+pub(crate) type Pixels = Vec<[f32; 4]>;
+
+/// A network with a runner and what has been computed.
+pub(crate) struct Bench {
+    saved: Network,
+    network: Network,
+    runner: Runner,
+    evaluator: Evaluator<Runner>,
+    pub chain: Chain,
+    size: [u32; 2],
+}
+
+impl Bench {
+    pub fn new(network: &Network, chain: Chain, gpu: Gpu, size: [u32; 2]) -> Result<Self, MeasureError> {
+        let runner = Runner::new(gpu)?;
+        Ok(Self { saved: network.clone(), network: network.clone(), runner, evaluator: Evaluator::new(), chain, size })
+    }
+
+    /// The camera of the saved network.
+    pub fn camera(&self) -> Result<Camera, MeasureError> {
+        match self.saved.value(&self.chain.view, "camera") {
+            Some(Value::Camera(camera)) => Ok(camera),
+            _ => Err(MeasureError::Subject(format!("`{}` has no camera.", self.chain.view))),
+        }
+    }
+
+    /// From here on the network has this setting and camera. Nothing is computed yet.
+    pub fn set(&mut self, setting: &Setting, camera: &Camera) -> Result<(), MeasureError> {
+        let mut network = setting.applied(&self.saved)?;
+        network.set_property(&self.chain.view, "camera", Value::Camera(*camera))?;
+        self.network = network;
+        Ok(())
+    }
+
+    /// The picture as it is shown.
+    pub fn picture(&mut self) -> Result<Pixels, MeasureError> {
+        self.evaluate()?;
+        self.read()
+    }
+
+    /// The picture with what was counted and noted on the way.
+    pub fn counted_picture(&mut self) -> Result<(Pixels, Counts, Vec<String>), MeasureError> {
+        self.runner.count_samples(true);
+        self.again(Level::Shader);
+        let report = self.evaluate();
+        self.runner.count_samples(false);
+        self.again(Level::Shader);
+        let report = report?;
+        let run = report.runs.iter().find(|run| run.processor == self.chain.traversal());
+        let count = |key| run.and_then(|run| run.statistics.get(key)?.as_u64()).unwrap_or_default();
+        let counts = Counts { rays: count("rays"), samples: count("samples"), contributing: count("contributing") };
+        let notes = report.runs.iter().flat_map(|run| run.notes.clone()).collect();
+        Ok((self.read()?, counts, notes))
+    }
+
+    /// Milliseconds on the device for entry points and rays; everything else is ready before. `None` where it cannot be told.
+    pub fn time(&mut self) -> Result<Option<f64>, MeasureError> {
+        self.evaluate()?;
+        self.runner.measure(true);
+        self.again(Level::Result);
+        self.evaluator.invalidate(&self.chain.view, Level::Result, "measured again");
+        let report = self.evaluate();
+        self.runner.measure(false);
+        let measured = [self.chain.traversal(), &self.chain.view];
+        let report = report?;
+        let times = report.runs.iter().filter(|run| measured.contains(&run.processor.as_str())).map(|run| run.gpu);
+        let total: Option<Duration> = times.sum();
+        Ok(total.map(|time| time.as_secs_f64() * 1e3))
+    }
+
+    /// What the network shows, as a scene of the reference.
+    pub fn subject(&mut self) -> Result<Subject, MeasureError> {
+        let Chain { volume, entry, geometry, .. } = self.chain.clone();
+        self.bring(vec![volume, entry, geometry])?;
+        Subject::of(&self.network, &self.evaluator, &self.chain)
+    }
+
+    fn again(&mut self, level: Level) {
+        self.evaluator.invalidate(self.chain.traversal(), level, "measured again");
+    }
+
+    fn evaluate(&mut self) -> Result<Report, MeasureError> {
+        self.bring(vec![self.chain.image.clone()])
+    }
+
+    /// Brings these outports up to date.
+    fn bring(&mut self, watch: Vec<Address>) -> Result<Report, MeasureError> {
+        let request = Request { sinks: Sinks::Only(Vec::new()), watch, size: Some(self.size) };
+        let report = self.evaluator.evaluate(&self.network, &mut self.runner, &request);
+        self.runner.tidy(|_| true);
+        match report.is_complete() {
+            true => Ok(report),
+            false => Err(MeasureError::Evaluation(problems(&report))),
+        }
+    }
+
+    fn read(&self) -> Result<Pixels, MeasureError> {
+        let image = &self.chain.image;
+        match self.evaluator.output(&image.processor, &image.item) {
+            Some(Data::Image(picture)) => Ok(picture.read_back(&self.runner.context)?.pixels),
+            _ => Err(MeasureError::Evaluation(format!("{image} holds no image."))),
+        }
+    }
+}
+
+/// What failed; if nothing did, what is not ready.
+fn problems(report: &Report) -> String {
+    let mut lines: Vec<String> = report.failed.iter().map(|(id, error)| format!("{id} failed: {error}")).collect();
+    if lines.is_empty() {
+        lines = report.not_ready.values().flatten().cloned().collect();
+        lines.dedup();
+    }
+    lines.join("\n")
+}

@@ -1,0 +1,40 @@
+//! Measures the trade of speed for accuracy of a network.
+//!
+//! A [`Plan`] names settings of a network: variations of its properties ([`Vary`]) and ready ladders of knobs ([`ladder`]).
+//! [`measure`] renders every setting from several views, times it, counts its samples and compares it with a reference; a
+//! [`Measurements`] is written as CSV, JSON and a page to read ([`write_all`]). [`Subject`] translates what a ray traversal
+//! shows into a scene of the float64 reference, which can also be drawn on its own ([`draw`]).
+
+mod advice;
+mod bench;
+mod budget;
+mod chain;
+mod csv;
+mod draw;
+mod error;
+mod errors;
+mod ladder;
+mod measurements;
+mod output;
+pub mod pareto;
+mod plan;
+mod report;
+mod run;
+mod scene;
+mod setting;
+mod views;
+mod yardstick;
+
+pub use budget::{Budget, Row};
+pub use chain::Chain;
+pub use draw::{draw, user_cache};
+pub use error::{MeasureError, Refusal};
+pub use errors::Errors;
+pub use ladder::{LADDERS, Ladder, ladder};
+pub use measurements::{Counts, Measured, Measurements, Refused, Summary};
+pub use output::write_all;
+pub use plan::{Listener, MOST_SETTINGS, Plan, silent};
+pub use run::measure;
+pub use scene::Subject;
+pub use setting::{Assignment, Setting, Vary};
+pub use yardstick::Standard;

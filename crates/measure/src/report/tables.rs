@@ -1,0 +1,163 @@
+//! The tables and lists of the page.
+
+use std::fmt::Write;
+
+use super::text::{escaped, milliseconds, number, percent};
+use crate::{Budget, Measured, Measurements};
+
+/// Every setting, by rising error.
+pub(super) fn settings(measurements: &Measurements) -> String {
+    let mut order: Vec<usize> = (0..measurements.settings.len()).collect();
+    order.sort_by(|&a, &b| {
+        let rmse = |i: usize| measurements.settings[i].errors.rmse;
+        rmse(a).total_cmp(&rmse(b)).then(a.cmp(&b))
+    });
+    let rows: String = order.iter().map(|&i| row(measurements, i)).collect();
+    format!(
+        "<section><h2>All settings, the most accurate first</h2><div class=\"scroll\"><table><thead><tr><th>Setting</th>\
+         <th>Time<br>median</th><th>5 to 95 %</th><th>Samples</th><th>of them<br>contributing</th><th>Error<br>RMS</th>\
+         <th>mean</th><th>99 %<br>of pixels</th><th>largest</th><th>Visibly<br>off</th><th>ln T<br>largest</th></tr></thead>\
+         <tbody>{rows}</tbody></table></div><p class=\"quiet\">Errors of premultiplied colours and opacities from 0 to 1, over all \
+         views; of each pixel the largest of its four channels. Visibly off: by more than 1/510, half a code of an 8-bit picture. \
+         ln T: logarithm of the transmittance, which tells errors in deep and dark parts. Tinted: on the front of time and \
+         error.</p></section>"
+    )
+}
+
+fn row(measurements: &Measurements, index: usize) -> String {
+    let Measured { setting, time_ms, counts, errors, notes, .. } = &measurements.settings[index];
+    let class = if measurements.front_time.contains(&index) { " class=\"front\"" } else { "" };
+    let (time, spread) = match time_ms {
+        Some(time) => (milliseconds(time.median), format!("{} \u{2013} {}", number(time.low), number(time.high))),
+        None => ("\u{2013}".into(), "\u{2013}".into()),
+    };
+    let contributing = counts.contributing as f64 / counts.samples.max(1) as f64;
+    format!(
+        "<tr{class} title=\"{}\"><td>{}</td><td>{time}</td><td><small>{spread}</small></td><td>{}</td><td>{}</td><td>{}</td>\
+         <td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
+        escaped(&notes.join(" ")),
+        escaped(&setting.name),
+        number(counts.samples as f64),
+        percent(contributing),
+        number(errors.rmse),
+        number(errors.mean),
+        number(errors.p99),
+        number(errors.max),
+        percent(errors.visible),
+        number(errors.transmittance)
+    )
+}
+
+/// What not to choose, and what to take instead.
+pub(super) fn dominated(measurements: &Measurements) -> String {
+    if measurements.dominated.is_empty() {
+        return String::new();
+    }
+    let line = |(&worse, &better): (&usize, &usize)| {
+        let (worse, better) = (&measurements.settings[worse], &measurements.settings[better]);
+        let cost = |one: &Measured| {
+            let time = one.time_ms.map_or_else(|| "no time".into(), |time| milliseconds(time.median));
+            format!("{time}, error {}", number(one.errors.rmse))
+        };
+        let clear = match (worse.time_ms, better.time_ms) {
+            (Some(worse), Some(better)) if better.high < worse.low => "",
+            _ => " Their times overlap: a matter of accuracy, not of speed.",
+        };
+        format!(
+            "<li><b>{}</b> ({}): <b>{}</b> is no slower and no less accurate ({}).{clear}</li>",
+            escaped(&worse.setting.name),
+            cost(worse),
+            escaped(&better.setting.name),
+            cost(better)
+        )
+    };
+    let lines: String = measurements.dominated.iter().map(line).collect();
+    format!("<section><h2>Settings not worth choosing here</h2><ul>{lines}</ul></section>")
+}
+
+/// What could not be rendered.
+pub(super) fn refused(measurements: &Measurements) -> String {
+    if measurements.refused.is_empty() {
+        return String::new();
+    }
+    let lines: String = measurements
+        .refused
+        .iter()
+        .map(|one| format!("<li><b>{}</b>: {}</li>", escaped(&one.setting.name), escaped(&one.reason)))
+        .collect();
+    format!("<section><h2>Settings that cannot be rendered</h2><ul>{lines}</ul></section>")
+}
+
+/// The causes of the error of the network as saved.
+pub(super) fn budget(budget: &Budget, measurements: &Measurements) -> String {
+    let largest = budget.rows.iter().filter_map(|row| row.change).map(|change| change.rmse).fold(0.0, f64::max);
+    let mut rows = String::new();
+    for row in &budget.rows {
+        let _ = match row.change {
+            Some(change) => write!(
+                rows,
+                "<tr><td>{}</td><td class=\"text\"><small>{}</small></td><td class=\"text\"><span class=\"bar\" \
+                 style=\"width:{:.0}px\"></span></td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
+                row.cause,
+                escaped(&row.switch),
+                120.0 * change.rmse / largest.max(f64::MIN_POSITIVE),
+                number(change.rmse),
+                number(change.p99),
+                number(change.max),
+                percent(change.visible)
+            ),
+            None => write!(
+                rows,
+                "<tr><td>{}</td><td class=\"text\" colspan=\"6\"><small>{}</small></td></tr>",
+                row.cause,
+                escaped(&row.switch)
+            ),
+        };
+    }
+    if let Some(saved) = measurements.settings.iter().find(|one| one.setting.assignments.is_empty()) {
+        let errors = saved.errors;
+        let _ = write!(
+            rows,
+            "<tr class=\"front\"><td>all together</td><td class=\"text\"><small>as saved, against the reference</small></td><td></td>\
+             <td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
+            number(errors.rmse),
+            number(errors.p99),
+            number(errors.max),
+            percent(errors.visible)
+        );
+    }
+    let not: String = budget.not_separated.iter().map(|cause| format!("<li>{}</li>", escaped(cause))).collect();
+    format!(
+        "<section><h2>What the error is made of</h2><div class=\"scroll\"><table><thead><tr><th>Cause</th><th \
+         class=\"text\">switched off by</th><th class=\"text\">change of the picture</th><th>RMS</th><th>99 %<br>of \
+         pixels</th><th>largest</th><th>Visibly<br>off</th></tr></thead><tbody>{rows}</tbody></table></div><p class=\"quiet\">One \
+         cause is switched off at a time in the network as saved; the numbers say how far that moves the picture. Causes may cancel \
+         or overlap, so they do not add up to the whole. Gradients differ in what they estimate: theirs is a departure from \
+         fourth-order differences, not an error against the reference. Not separated:</p><ul class=\"quiet\">{not}</ul></section>"
+    )
+}
+
+/// How it was measured, to do it again.
+pub(super) fn conditions(measurements: &Measurements) -> String {
+    let [width, height] = measurements.size;
+    let cameras: String =
+        measurements.views.iter().map(|view| format!("<li><code>{}</code></li>", escaped(&view.to_string()))).collect();
+    format!(
+        "<section><h2>How it was measured</h2><p>{} of <code>{}</code>, {width} \u{d7} {height} pixels, {} view{}, {} timing{} of \
+         each setting and view taken in turns, on {}; rayloom {}. Time is that of entry points and rays on the device, without \
+         loading, compiling and reading back. On a software device it is read from the clock on the wall.</p><ul \
+         class=\"quiet\">{cameras}</ul></section>",
+        escaped(&measurements.image),
+        escaped(&measurements.origin),
+        measurements.views.len(),
+        plural(measurements.views.len()),
+        measurements.rounds,
+        plural(measurements.rounds),
+        escaped(&measurements.adapter),
+        escaped(&measurements.rayloom)
+    )
+}
+
+fn plural(count: usize) -> &'static str {
+    if count == 1 { "" } else { "s" }
+}

@@ -1,0 +1,203 @@
+//! A measurement from beginning to end.
+
+use rayloom_gpu::Gpu;
+use rayloom_network::{Camera, Network};
+use rayloom_reference::Cache;
+
+use crate::bench::Bench;
+use crate::chain::Chain;
+use crate::views::views;
+use crate::yardstick::{Standard, Yardstick, choose, finest};
+use crate::{Counts, Errors, Listener, MeasureError, Measured, Measurements, Plan, Refused, Setting, Summary};
+use crate::{advice, budget};
+
+/// Lowest sampling rate of the finest setting.
+const FINEST_RATE: f64 = 16.0;
+/// How many times finer than any measured setting the finest is.
+const FINER: f64 = 4.0;
+/// The highest sampling rate there is.
+const MOST_RATE: f64 = 4096.0;
+
+/// Measures a network.
+///
+/// Every setting is rendered from every view, counted and compared with the reference, then all of them are timed in turn,
+/// round by round, so that whatever else the machine does hits all alike. A setting that cannot be rendered is listed with
+/// the reason.
+///
+/// # Errors
+/// The network has no ray traversal to measure, the plan makes no sense, the reference that was asked for cannot draw it, or
+/// no setting at all can be rendered.
+pub fn measure(
+    network: &Network,
+    plan: &Plan,
+    gpu: Gpu,
+    cache: &Cache,
+    listener: Listener<'_>,
+) -> Result<Measurements, MeasureError> {
+    let chain = Chain::find(network, plan.port.as_ref())?;
+    let settings = plan.settings(network, &chain)?;
+    let adapter = gpu.describe();
+    let finest = finest(network, &chain, finest_rate(network, &chain, &settings));
+    let mut bench = Bench::new(network, chain, gpu, plan.size)?;
+    let views = views(&bench.camera()?, plan.views);
+    let (standard, refusal) = choose(plan.standard, &mut bench)?;
+    let yardstick = Yardstick { standard, cache, listener, finest };
+    let compared = compare(&mut bench, &yardstick, settings, &views)?;
+    let Compared { mut settings, refused, own, picture } = compared;
+    time(&mut bench, &mut settings, &views, plan.rounds, listener)?;
+    let budget = match plan.budget && !own.is_empty() {
+        true => Some(budget::budget(network, &mut bench, &views, &own, cache, listener)?),
+        false => None,
+    };
+    let note = refusal.map(|refusal| format!(" Not with the exact picture: {refusal}")).unwrap_or_default();
+    let mut measurements = Measurements {
+        network: network.name.clone(),
+        origin: plan.origin.clone(),
+        image: bench.chain.image.to_string(),
+        adapter,
+        rayloom: env!("CARGO_PKG_VERSION").into(),
+        size: plan.size,
+        views: views.iter().map(Camera::to_json).collect(),
+        rounds: plan.rounds.max(1),
+        reference: standard.id(),
+        reference_note: format!("{}{note}", standard.meaning()),
+        settings,
+        front_time: Vec::new(),
+        front_samples: Vec::new(),
+        dominated: Default::default(),
+        refused,
+        budget,
+        advice: String::new(),
+        picture,
+    };
+    measurements.compare();
+    measurements.advice = advice::advice(&measurements);
+    Ok(measurements)
+}
+
+/// Finer than every setting that is measured.
+fn finest_rate(network: &Network, chain: &Chain, settings: &[Setting]) -> f64 {
+    let rate = |network: &Network| match network.value(chain.traversal(), "sampling_rate") {
+        Some(rayloom_network::Value::Float(rate)) => rate,
+        _ => 1.0,
+    };
+    let rates = settings.iter().filter_map(|setting| setting.applied(network).ok()).map(|network| rate(&network));
+    (FINER * rates.fold(0.0, f64::max)).clamp(FINEST_RATE, MOST_RATE)
+}
+
+/// What comparing pictures gives.
+struct Compared {
+    settings: Vec<Measured>,
+    refused: Vec<Refused>,
+    /// Pictures of the network as saved, view by view; empty if it cannot be rendered.
+    own: Vec<[f32; 4]>,
+    /// The reference of the first view.
+    picture: Vec<[f64; 4]>,
+}
+
+fn compare(
+    bench: &mut Bench,
+    yardstick: &Yardstick<'_>,
+    settings: Vec<Setting>,
+    views: &[Camera],
+) -> Result<Compared, MeasureError> {
+    let own_samples = yardstick.standard == Standard::SameSamples;
+    let mut common = match own_samples {
+        true => Vec::new(),
+        false => yardstick.draw(bench, &Setting::saved(), views)?,
+    };
+    let mut result = Compared { settings: Vec::new(), refused: Vec::new(), own: Vec::new(), picture: Vec::new() };
+    let count = settings.len();
+    for (index, setting) in settings.into_iter().enumerate() {
+        (yardstick.listener)(&format!("comparing: {}", setting.name), index as f64 / count as f64);
+        if own_samples {
+            match yardstick.draw(bench, &setting, views) {
+                Ok(reference) => common = reference,
+                Err(error) => {
+                    result.refused.push(Refused { setting, reason: refusable(error)? });
+                    continue;
+                }
+            }
+        }
+        match compare_one(bench, &setting, views, &common) {
+            Ok((measured, pixels)) => {
+                if setting.assignments.is_empty() {
+                    result.own = pixels;
+                }
+                if result.picture.is_empty() {
+                    result.picture = common[..common.len() / views.len()].to_vec();
+                }
+                result.settings.push(measured);
+            }
+            Err(error) => result.refused.push(Refused { setting, reason: refusable(error)? }),
+        }
+    }
+    match result.settings.is_empty() {
+        true => Err(MeasureError::AllRefused(
+            result
+                .refused
+                .iter()
+                .map(|one| format!("{}: {}", one.setting.name, one.reason))
+                .collect::<Vec<_>>()
+                .join("\n"),
+        )),
+        false => Ok(result),
+    }
+}
+
+/// The reason, where one setting is to blame; anything else ends the measurement.
+fn refusable(error: MeasureError) -> Result<String, MeasureError> {
+    match error {
+        MeasureError::Evaluation(_) | MeasureError::Edit(_) | MeasureError::Refusal(_) => Ok(error.to_string()),
+        other => Err(other),
+    }
+}
+
+fn compare_one(
+    bench: &mut Bench,
+    setting: &Setting,
+    views: &[Camera],
+    reference: &[[f64; 4]],
+) -> Result<(Measured, Vec<[f32; 4]>), MeasureError> {
+    let (mut pixels, mut total, mut notes) = (Vec::new(), Counts::default(), Vec::new());
+    for view in views {
+        bench.set(setting, view)?;
+        let (picture, counts, noted) = bench.counted_picture()?;
+        pixels.extend(picture);
+        total.rays += counts.rays;
+        total.samples += counts.samples;
+        total.contributing += counts.contributing;
+        notes.extend(noted);
+    }
+    notes.sort();
+    notes.dedup();
+    let (errors, each) = Errors::of(&pixels, reference)?;
+    let map = each[..each.len() / views.len()].iter().map(|&error| error as f32).collect();
+    Ok((Measured { setting: setting.clone(), time_ms: None, counts: total, errors, notes, map }, pixels))
+}
+
+/// Times all settings, taking turns.
+fn time(
+    bench: &mut Bench,
+    settings: &mut [Measured],
+    views: &[Camera],
+    rounds: usize,
+    listener: Listener<'_>,
+) -> Result<(), MeasureError> {
+    let rounds = rounds.max(1);
+    let mut timings = vec![Vec::new(); settings.len()];
+    for round in 0..rounds {
+        for (number, view) in views.iter().enumerate() {
+            let share = (round * views.len() + number) as f64 / (rounds * views.len()) as f64;
+            listener(&format!("timing: round {} of {rounds}", round + 1), share);
+            for (measured, timings) in settings.iter().zip(&mut timings) {
+                bench.set(&measured.setting, view)?;
+                timings.extend(bench.time()?);
+            }
+        }
+    }
+    for (measured, timings) in settings.iter_mut().zip(&timings) {
+        measured.time_ms = Summary::of(timings);
+    }
+    Ok(())
+}

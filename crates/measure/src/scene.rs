@@ -1,0 +1,324 @@
+//! From an evaluated network to a scene of the float64 reference.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use rayloom_network::{self as network, Evaluator, LightSpace, Network, Properties};
+use rayloom_processors::{Data, Mesh, Runner, View};
+use rayloom_reference::field::Sampling;
+use rayloom_reference::gradient::GradientOperator;
+use rayloom_reference::ray::AxisBox;
+use rayloom_reference::shading::{self, BlinnPhong};
+use rayloom_reference::{Camera, Method, Projection, Reference, Refinement, Scene};
+use rayloom_volume::{Knot, TransferFunction, Volume, VolumeRole};
+
+use crate::chain::Chain;
+use crate::{MeasureError, Refusal};
+
+/// What a ray traversal shows, in the words of the reference; it keeps the volume.
+#[derive(Debug, Clone)]
+pub struct Subject {
+    volume: Arc<Volume>,
+    channel: u32,
+    sampling: Sampling,
+    clip: AxisBox,
+    camera: Camera,
+    size: [u32; 2],
+    rate: f64,
+    reference_length: f64,
+    method: Method,
+    classification: TransferFunction,
+    shading: Option<BlinnPhong>,
+    gradient: GradientOperator,
+    early_termination: Option<f64>,
+    /// Why the samples of the device cannot be retraced, if they cannot.
+    own_samples: Option<Refusal>,
+}
+
+type Refusable<T> = Result<T, MeasureError>;
+
+fn refuse<T>(why: impl Into<String>) -> Refusable<T> {
+    Err(Refusal(why.into()).into())
+}
+
+impl Subject {
+    /// What the ray traversal of `chain` shows. The outports `volume`, `entry` and `geometry` of the chain must have been
+    /// evaluated.
+    ///
+    /// # Errors
+    /// A [`Refusal`] where the traversal shows something that the reference does not know: another compositing, shading,
+    /// classification or gradient, edited shader text, proxy geometry that is not a box along the voxel axes.
+    pub fn of(network: &Network, evaluator: &Evaluator<Runner>, chain: &Chain) -> Refusable<Self> {
+        let missing = |what| MeasureError::Evaluation(format!("{what} has not been computed, so there is no scene."));
+        let properties =
+            network.processor(chain.traversal()).ok_or_else(|| missing(chain.image.to_string()))?.properties();
+        let output = |port: &network::Address| {
+            evaluator.output(&port.processor, &port.item).ok_or_else(|| missing(port.to_string()))
+        };
+        let Data::Volume(data) = output(&chain.volume)? else { return Err(missing(chain.volume.to_string())) };
+        let Data::Geometry(mesh) = output(&chain.geometry)? else { return Err(missing(chain.geometry.to_string())) };
+        let view = match output(&chain.entry)? {
+            Data::Image(image) => image.view.clone().ok_or_else(|| missing(chain.entry.to_string()))?,
+            _ => return Err(missing(chain.entry.to_string())),
+        };
+        check_texts(&properties, &chain.image.item)?;
+        let volume = data.volume.clone();
+        let method = method(&properties, &chain.image.item)?;
+        let classification = classification(&properties, &chain.image.item, method)?;
+        let shading = shading(&properties, method)?;
+        let gradient = match shading {
+            Some(_) => gradient(&properties, network, chain)?,
+            None => GradientOperator::default(),
+        };
+        let error = properties.f64("termination_error")?;
+        Ok(Self {
+            channel: channel(&properties, &volume)?,
+            sampling: sampling(&properties)?,
+            clip: clip(mesh)?,
+            camera: camera(&view),
+            size: view.size,
+            rate: properties.f64("sampling_rate")?,
+            reference_length: reference_length(&properties, &chain.image.item, &volume, method)?,
+            method,
+            classification,
+            shading,
+            gradient,
+            early_termination: (error > 0.0).then_some(1.0 - error),
+            own_samples: own_samples(&properties, &volume, method)?,
+            volume,
+        })
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> Scene<'_> {
+        Scene {
+            channel: self.channel,
+            sampling: self.sampling,
+            clip: self.clip,
+            rate: self.rate,
+            reference_length: self.reference_length,
+            method: self.method,
+            shading: self.shading,
+            gradient: self.gradient,
+            early_termination: self.early_termination,
+            ..Scene::new(&self.volume, self.classification.clone(), self.camera, self.size)
+        }
+    }
+
+    /// Whether a reference can draw it.
+    ///
+    /// # Errors
+    /// The same samples cannot be retraced where they do not stand for points of the field.
+    pub fn check(&self, reference: Reference) -> Result<(), Refusal> {
+        match (&self.own_samples, reference) {
+            (Some(refusal), Reference::SameSamples) => Err(refusal.clone()),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The property that chooses the compositing of an outport.
+fn compositing_of(outport: &str) -> String {
+    format!("compositing{}", outport.trim_start_matches("image"))
+}
+
+fn check_texts(properties: &Properties, outport: &str) -> Refusable<()> {
+    let compositing = compositing_of(outport);
+    for slot in ["sampling", "classification", "gradient", "shading", "refinement", "skipping", &compositing] {
+        if !properties.text(&format!("{slot}.text"))?.trim().is_empty() {
+            return refuse(format!("the slot `{slot}` holds a text of your own, which it cannot read"));
+        }
+    }
+    Ok(())
+}
+
+fn method(properties: &Properties, outport: &str) -> Refusable<Method> {
+    let slot = compositing_of(outport);
+    Ok(match properties.text(&slot)? {
+        "dvr" => Method::Dvr,
+        "mip" => Method::Mip,
+        "minip" => Method::MinIp,
+        "mean" => Method::Mean,
+        "sum" if properties.f64(&format!("{slot}.gain"))? > 0.0 => Method::Sum,
+        "sum" => return refuse("a sum with the gain 0 shows one value everywhere"),
+        "isosurface" => {
+            let value = properties.f64(&format!("{slot}.isovalue"))?;
+            Method::Isosurface { value, refinement: refinement(properties)? }
+        }
+        other => {
+            return refuse(format!(
+                "the compositing `{other}` has no counterpart there; it knows dvr, mip, minip, mean, sum and isosurface"
+            ));
+        }
+    })
+}
+
+fn refinement(properties: &Properties) -> Refusable<Refinement> {
+    let steps = |id| Ok::<_, MeasureError>(properties.int(id)?.clamp(0, 64) as u32);
+    Ok(match properties.text("refinement")? {
+        "none" => Refinement::None,
+        "linear" => Refinement::Linear,
+        "bisection" => Refinement::Bisection(steps("refinement.halvings")?),
+        // The shader takes a last straight line behind its samples, which the reference counts as a step.
+        "secant" => Refinement::Secant(steps("refinement.steps")? + 1),
+        other => return refuse(format!("the refinement `{other}` has no counterpart there")),
+    })
+}
+
+fn classification(properties: &Properties, outport: &str, method: Method) -> Refusable<TransferFunction> {
+    if let Method::Isosurface { .. } = method {
+        let [r, g, b, _] = properties.color(&format!("{}.color", compositing_of(outport)))?;
+        let surface = TransferFunction::new(vec![Knot::new(0.0, [r, g, b], 1.0)]);
+        return surface.or_else(|error| refuse(format!("the colour of the surface is none ({error})")));
+    }
+    match properties.text("classification")? {
+        "transfer_function" | "preintegrated_fast" | "preintegrated_full" => {
+            Ok(properties.transfer_function("transfer_function")?.clone())
+        }
+        "transfer_function_2d" => refuse("it knows no transfer functions over value and gradient"),
+        "labels" => refuse("it knows no labels"),
+        other => refuse(format!("the classification `{other}` has no counterpart there; it knows transfer functions")),
+    }
+}
+
+fn shading(properties: &Properties, method: Method) -> Refusable<Option<BlinnPhong>> {
+    let id = properties.text("shading")?;
+    if id == "none" || matches!(method, Method::Mean | Method::Sum) {
+        return Ok(None);
+    }
+    if matches!(method, Method::Mip | Method::MinIp) {
+        return refuse(format!("it does not light the extremes of rays, and the shading is `{id}`; choose none"));
+    }
+    let parameter = |name: &str| properties.f64(&format!("shading.{name}"));
+    let specular = match id {
+        "blinn_phong" => (parameter("specular")?, parameter("shininess")?),
+        "diffuse" => (0.0, 1.0),
+        other => {
+            return refuse(format!(
+                "the shading `{other}` has no counterpart there; it knows none, diffuse and blinn_phong"
+            ));
+        }
+    };
+    let light = properties.light("light")?;
+    Ok(Some(BlinnPhong {
+        ambient: parameter("ambient")?,
+        diffuse: parameter("diffuse")?,
+        specular: specular.0,
+        shininess: specular.1,
+        light_direction: light.direction.into(),
+        light_space: match light.space {
+            LightSpace::Camera => shading::LightSpace::Camera,
+            LightSpace::World => shading::LightSpace::World,
+        },
+        light_color: light.color,
+        two_sided: properties.bool("two_sided")?,
+        gradient_fade: properties.f64("gradient_fade")?,
+    }))
+}
+
+fn gradient(properties: &Properties, network: &Network, chain: &Chain) -> Refusable<GradientOperator> {
+    Ok(match properties.text("gradient")? {
+        "central" => GradientOperator::Central,
+        "forward" => GradientOperator::Forward,
+        "backward" => GradientOperator::Backward,
+        "central4" => GradientOperator::CentralFourth,
+        "precomputed" => return precomputed(properties, network, chain),
+        other => {
+            return refuse(format!(
+                "the gradient `{other}` has no counterpart there; it knows central, forward, backward and central4"
+            ));
+        }
+    })
+}
+
+/// Central differences of a field that is linear between voxels are those at the voxels, interpolated.
+fn precomputed(properties: &Properties, network: &Network, chain: &Chain) -> Refusable<GradientOperator> {
+    let operator = network.value(&chain.volume.processor, "operator");
+    let central = matches!(operator, Some(network::Value::Text(id)) if id == "central");
+    let linear = matches!(properties.text("sampling")?, "filtered" | "trilinear");
+    match central && linear {
+        true => Ok(GradientOperator::Central),
+        false => refuse(
+            "precomputed gradients have a counterpart there only if they are central differences of a linearly \
+             interpolated volume",
+        ),
+    }
+}
+
+fn sampling(properties: &Properties) -> Refusable<Sampling> {
+    Ok(match properties.text("sampling")? {
+        "nearest" => Sampling::Nearest,
+        "filtered" | "trilinear" => Sampling::Trilinear,
+        "catmull_rom" => Sampling::CatmullRom,
+        "bspline" => Sampling::BSplinePrefiltered,
+        other => return refuse(format!("the sampling `{other}` has no counterpart there")),
+    })
+}
+
+fn channel(properties: &Properties, volume: &Volume) -> Refusable<u32> {
+    if volume.role == VolumeRole::GradientAndValue {
+        return Ok(3);
+    }
+    // The reference itself refuses a channel that the volume lacks.
+    Ok(u32::try_from(properties.int("channel")?).unwrap_or(0))
+}
+
+/// The length to which opacities refer, world units. A gain of a sum shortens it: twice the gain is the sum over twice as
+/// many reference lengths.
+fn reference_length(properties: &Properties, outport: &str, volume: &Volume, method: Method) -> Refusable<f64> {
+    let chosen = properties.f64("reference_length")?;
+    let mean_spacing = volume.index_to_world.matrix3.determinant().abs().cbrt();
+    let length = if chosen > 0.0 { chosen } else { mean_spacing };
+    Ok(match method {
+        Method::Sum => length / properties.f64(&format!("{}.gain", compositing_of(outport)))?,
+        _ => length,
+    })
+}
+
+/// The box that a mesh bounds.
+fn clip(mesh: &Mesh) -> Refusable<AxisBox> {
+    const ROUNDING: f64 = 1e-6;
+    let corner = |position: &[f32; 3]| DVec3::from(position.map(f64::from));
+    let corners: Vec<DVec3> = mesh.positions.iter().map(corner).collect();
+    let min = corners.iter().copied().reduce(DVec3::min).unwrap_or(DVec3::ZERO);
+    let max = corners.iter().copied().reduce(DVec3::max).unwrap_or(DVec3::ZERO);
+    let signed = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|i| corners.get(i as usize).copied().unwrap_or_default() - min);
+        a.dot(b.cross(c)) / 6.0
+    };
+    // By the divergence theorem: only the whole box has its volume.
+    let inside: f64 = mesh.indices.iter().map(signed).sum();
+    match mesh.closed && (inside - (max - min).element_product()).abs() <= ROUNDING {
+        true => Ok(AxisBox { min, max }),
+        false => refuse(
+            "the proxy geometry is not a box along the voxel axes; cut with the clip ranges of a cube proxy only",
+        ),
+    }
+}
+
+fn camera(view: &View) -> Camera {
+    let network::Camera { position, focus, up, projection, near } = view.camera;
+    let projection = match projection {
+        network::Projection::Perspective { fov_degrees } => Projection::Perspective { fov_degrees },
+        network::Projection::Orthographic { height } => Projection::Orthographic { height },
+    };
+    Camera { eye: position.into(), focus: focus.into(), up: up.into(), projection, near }
+}
+
+fn own_samples(properties: &Properties, volume: &Volume, method: Method) -> Refusable<Option<Refusal>> {
+    let classification = properties.text("classification")?;
+    if method == Method::Dvr && classification.starts_with("preintegrated") {
+        return Ok(Some(Refusal(
+            "pre-integrated classification looks at segments, not samples; draw the exact reference or classify by \
+             `transfer_function`"
+                .into(),
+        )));
+    }
+    let most = properties.int("max_samples")? as f64;
+    let longest = volume.dims_f64().length() * properties.f64("sampling_rate")?;
+    Ok((longest > most).then(|| {
+        Refusal(format!(
+            "rays of up to {longest:.0} samples are cut to {most}; raise max_samples or draw the exact reference"
+        ))
+    }))
+}
