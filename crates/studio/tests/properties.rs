@@ -5,7 +5,7 @@ mod window;
 use egui::accesskit::Role;
 use egui::{Key, Pos2, Vec2};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use rayloom_network::Value;
 use rayloom_studio::Studio;
 
@@ -127,6 +127,13 @@ fn every_editor_of_a_traversal_works_on_the_real_volume() {
     let mut harness = selected("traversal");
     window::wait_for(&mut harness, "ready, took");
     set(&mut harness, "classification", "\"transfer_function_2d\"");
+    // Shapes can be added once the gradients are known.
+    let start = std::time::Instant::now();
+    while harness.get_by_role_and_label(Role::Button, "Add a shape").accesskit_node().is_disabled() {
+        assert!(start.elapsed().as_secs() < 60, "the gradients are not counted");
+        std::thread::sleep(std::time::Duration::from_millis(50));
+        harness.step();
+    }
     click(&mut harness, Role::Button, "Add a shape");
     harness.get_by_label("Triangle").click();
     harness.run_steps(3);
@@ -140,8 +147,7 @@ fn every_editor_of_a_traversal_works_on_the_real_volume() {
     harness.drop_at(handle + Vec2::new(30.0, -20.0));
     harness.run_steps(3);
     assert_ne!(value(&harness, "transfer_function_2d"), Some(Value::TransferFunction2D(function)));
-    std::thread::sleep(std::time::Duration::from_secs(2));
-    harness.run_steps(5);
+    window::wait_for(&mut harness, "ready, took");
     window::keep_picture(&mut harness, "properties_2d");
 
     set(&mut harness, "classification", "\"labels\"");

@@ -8,8 +8,8 @@ use rayloom_volume::{Histogram, Histogram2D, Volume, Voxels, histogram, histogra
 
 /// Bins of a histogram of values at most.
 const BINS: usize = 256;
-/// Bins of a histogram of values and gradient magnitudes.
-const BINS_2D: [usize; 2] = [192, 128];
+/// Bins along the gradient magnitudes.
+const BINS_UP: usize = 128;
 
 /// A volume in memory and its channel. The address stays its own while the `Weak` beside it is held.
 type Key = (usize, u32);
@@ -77,7 +77,7 @@ impl Histograms {
             return entry.counted.clone();
         }
         self.planes.insert(key, Entry { _volume: Arc::downgrade(volume), counted: None });
-        self.count(volume, move |volume| Counted::Plane(key, histogram_2d(volume, channel, BINS_2D)));
+        self.count(volume, move |volume| Counted::Plane(key, histogram_2d(volume, channel, [bins(volume, channel), BINS_UP])));
         None
     }
 

@@ -54,7 +54,7 @@ fn color(ui: &mut Ui, decl: &PropertyDecl, light: &mut Light, surroundings: &mut
         light.color = picked.map(|c| c * strength.max(1e-3));
     }
     let label = "Strength";
-    let field = Number { label, range: [0.0, 100.0], slider: Some([0.0, 3.0]), unit: "x", logarithmic: false, whole: false };
+    let field = Number { label, range: [0.0, 100.0], slider: Some([0.0, 3.0]), unit: "strength", logarithmic: false, whole: false };
     let entered = field.show(ui, strength, ui.available_width());
     if let Some(strength) = surroundings.number(decl, entered) {
         light.color = hue.map(|c| c * strength);

@@ -109,29 +109,38 @@ fn code(ui: &mut Ui, decl: &PropertyDecl, text: &mut String, problems: &[(u32, S
     let rows = lines.clamp(ROWS[0], ROWS[1]);
     let font = egui::FontId::monospace(11.5);
     let row = ui.fonts_mut(|fonts| fonts.row_height(&font));
-    egui::ScrollArea::both().id_salt("code").max_height(row * rows as f32 + 12.0).show(ui, |ui| {
+    let height = row * rows as f32 + 12.0;
+    egui::ScrollArea::vertical().id_salt("code").max_height(height).show(ui, |ui| {
         ui.horizontal_top(|ui| {
-            let mut numbers = egui::text::LayoutJob::default();
-            for line in 1..=lines as u32 {
-                let bad = problems.iter().any(|(bad, _)| *bad == line);
-                let color = if bad { theme::ERROR } else { ui.visuals().weak_text_color().gamma_multiply(0.6) };
-                let format = egui::TextFormat::simple(font.clone(), color);
-                numbers.append(&format!("{line:>3}\n"), 0.0, format);
-            }
-            ui.label(numbers);
-            let edit = TextEdit::multiline(text).font(font).desired_rows(rows).desired_width(f32::INFINITY);
-            let mut layouter = |ui: &Ui, text: &dyn egui::TextBuffer, _: f32| {
-                let job = egui::text::LayoutJob::simple(
-                    text.as_str().to_owned(),
-                    egui::FontId::monospace(11.5),
-                    ui.visuals().text_color(),
-                    f32::INFINITY,
-                );
-                ui.fonts_mut(|fonts| fonts.layout_job(job))
-            };
-            let edit = edit.frame(egui::Frame::NONE).margin(egui::Margin::ZERO).lock_focus(true).layouter(&mut layouter);
-            let response = ui.add(edit);
-            ui.ctx().accesskit_node_builder(response.id, |node| node.set_label(decl.label.as_str()));
+            ui.label(line_numbers(ui, &font, lines as u32, problems));
+            egui::ScrollArea::horizontal().id_salt("lines").show(ui, |ui| {
+                let edit = TextEdit::multiline(text).desired_rows(rows).desired_width(f32::INFINITY);
+                // Lines are not wrapped: their numbers stand beside them.
+                let mut layouter = |ui: &Ui, text: &dyn egui::TextBuffer, _: f32| {
+                    let (font, color) = (font.clone(), ui.visuals().text_color());
+                    let job = egui::text::LayoutJob::simple(text.as_str().to_owned(), font, color, f32::INFINITY);
+                    ui.fonts_mut(|fonts| fonts.layout_job(job))
+                };
+                let edit = edit.frame(egui::Frame::NONE).margin(egui::Margin::ZERO).lock_focus(true);
+                let response = ui.add(edit.layouter(&mut layouter));
+                ui.ctx().accesskit_node_builder(response.id, |node| node.set_label(decl.label.as_str()));
+            });
         });
     });
+}
+
+/// The numbers of lines; those with problems in red.
+fn line_numbers(
+    ui: &Ui,
+    font: &egui::FontId,
+    lines: u32,
+    problems: &[(u32, String)],
+) -> egui::text::LayoutJob {
+    let mut numbers = egui::text::LayoutJob::default();
+    for line in 1..=lines {
+        let bad = problems.iter().any(|(bad, _)| *bad == line);
+        let color = if bad { theme::ERROR } else { ui.visuals().weak_text_color().gamma_multiply(0.6) };
+        numbers.append(&format!("{line:>3}\n"), 0.0, egui::TextFormat::simple(font.clone(), color));
+    }
+    numbers
 }

@@ -82,7 +82,13 @@ pub(super) fn show(
         ui.painter().text(area.center(), egui::Align2::CENTER_CENTER, "counting voxels...", font, color);
     }
     shape_row(ui, decl, &mut state, &mut after, surroundings);
-    tools(ui, decl, &plane, &mut state, &mut after, surroundings);
+    let known = volume.is_none() || counted.is_some();
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        // Where new shapes belong is only known with the gradients.
+        ui.add_enabled_ui(known, |ui| add(ui, &plane, &mut state, &mut after));
+        files(ui, decl, &mut state, &mut after, surroundings);
+    });
     surroundings.tools.planes.insert(address, state);
     (after != *function && after.check().is_ok()).then_some(after)
 }
@@ -121,7 +127,7 @@ impl State {
 fn image(counted: &Histogram2D) -> ColorImage {
     let [nx, ny] = counted.bins;
     let most = counted.counts.iter().copied().max().unwrap_or(1).max(1) as f64;
-    let shade = |count: u64| Color32::from_white_alpha((180.0 * (count as f64).ln_1p() / most.ln_1p()) as u8);
+    let shade = |count: u64| Color32::from_white_alpha((230.0 * (count as f64).ln_1p() / most.ln_1p()) as u8);
     let pixels = (0..ny).rev().flat_map(|y| counted.counts[y * nx..(y + 1) * nx].iter().map(|count| shade(*count)));
     ColorImage::new([nx, ny], pixels.collect())
 }
@@ -227,33 +233,33 @@ fn shape_row(
     });
 }
 
-/// New shapes, files.
-fn tools(
+/// New shapes.
+fn add(ui: &mut Ui, plane: &Plane, state: &mut State, function: &mut TransferFunction2D) {
+    ui.menu_button("Add a shape", |ui| {
+        for (name, shape) in shapes::NEW {
+            if ui.button(name).clicked() {
+                let range = plane.plot.range;
+                let shape = shapes::placed(&shape, range.min, [range.width(), plane.gradient_max]);
+                let color = COLORS[function.primitives.len() % COLORS.len()];
+                function.primitives.push(Primitive { shape, color, opacity: 0.4, softness: 0.5 });
+                state.selected = Some(function.primitives.len() - 1);
+                ui.close();
+            }
+        }
+    });
+}
+
+/// Functions from and to files.
+fn files(
     ui: &mut Ui,
     decl: &PropertyDecl,
-    plane: &Plane,
     state: &mut State,
     function: &mut TransferFunction2D,
     surroundings: &mut Surroundings<'_>,
 ) {
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 4.0;
-        ui.menu_button("Add a shape", |ui| {
-            for (name, shape) in shapes::NEW {
-                if ui.button(name).clicked() {
-                    let range = plane.plot.range;
-                    let shape = shapes::placed(&shape, range.min, [range.width(), plane.gradient_max]);
-                    let color = COLORS[function.primitives.len() % COLORS.len()];
-                    function.primitives.push(Primitive { shape, color, opacity: 0.4, softness: 0.5 });
-                    state.selected = Some(function.primitives.len() - 1);
-                    ui.close();
-                }
-            }
-        });
-        let current = Value::TransferFunction2D(function.clone());
-        if let Some(Value::TransferFunction2D(read)) = exchange::menu(ui, decl, &current, surroundings) {
-            *function = read;
-            state.selected = None;
-        }
-    });
+    let current = Value::TransferFunction2D(function.clone());
+    if let Some(Value::TransferFunction2D(read)) = exchange::menu(ui, decl, &current, surroundings) {
+        *function = read;
+        state.selected = None;
+    }
 }
