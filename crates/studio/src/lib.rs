@@ -24,6 +24,7 @@ pub use engine::{Engine, Results};
 pub use inspect::{ChannelStatistics, Inspection, Pixel, Reading, Statistics, hover, statistics};
 pub use panels::Pane;
 pub use session::{Message, Mode, Session, Severity};
+pub use visualization::{Application, Exposed, Group, Preset};
 
 use std::sync::Arc;
 

@@ -91,7 +91,6 @@ fn a_pinned_inspector_reads_the_pixel_under_the_pointer() {
     let mut harness = window::studio(window::flagship());
     harness.state_mut().session.to_open.push(rayloom_studio::Pane::Inspector(("view", "entry").into()));
     harness.state_mut().session.to_open.push(rayloom_studio::Pane::Inspector(("traversal", "image").into()));
-    window::wait_for(&mut harness, "Coordinates");
     window::wait_for(&mut harness, "Point at a pixel");
     window::keep_picture(&mut harness, "inspectors");
     let heading = harness.query_all_by_label_contains("Point at a pixel").last().expect("a hint").rect();

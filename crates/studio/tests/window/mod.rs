@@ -74,3 +74,13 @@ pub fn keep_picture<T>(harness: &mut Harness<'_, T>, name: &str) {
 pub fn flagship() -> Options {
     Options { network: Some(project("networks/brain.json")), ..Options::default() }
 }
+
+/// Frames until something holds.
+pub fn wait_until<T>(harness: &mut Harness<'_, T>, holds: impl Fn(&T) -> bool) {
+    let start = Instant::now();
+    while !holds(harness.state()) {
+        assert!(start.elapsed() < 4 * PATIENCE, "waited for too long");
+        harness.step();
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
