@@ -28,6 +28,9 @@ use geometry::Geometry;
 use menus::LooseEnd;
 use scene::{Resting, Scene, node_id};
 
+/// Distance from a wire at which the pointer touches it, points of the window.
+const TOUCH: f32 = 6.0;
+
 /// What the canvas remembers from frame to frame.
 pub struct NetworkPanel {
     view: View,
@@ -88,6 +91,8 @@ impl NetworkPanel {
         let selected: HashSet<_> = session.selection.iter().map(|id| node_id(id)).collect();
         // The library fills the background with this.
         ui.visuals_mut().widgets.noninteractive.bg_fill = ui.visuals().extreme_bg_color;
+        // The distance at which wires are touched, which the library takes on the canvas, is one in the window.
+        ui.style_mut().interaction.interact_radius = (TOUCH / self.geometry.to_window.scaling).clamp(3.0, 30.0);
         let graph = Graph::new("network").zoom_range(0.1..=3.0).dot_grid_step(24.0).selected_nodes(selected);
         let shown = graph.show(&mut self.view, ui, |ui, show| {
             scene.begin(ui);
@@ -105,6 +110,9 @@ impl NetworkPanel {
         if let Some(nodes) = shown.selection_changed.filter(|_| !deleting) {
             let ids = session.network().processors().map(|p| p.id().to_owned());
             session.selection = ids.filter(|id| nodes.contains(&node_id(id))).collect();
+        }
+        if shown.response.clicked() && !ui.input(|input| input.modifiers.any()) && self.drag.is_none() {
+            session.selection.clear();
         }
         self.canvas_menu(&shown.response, session, &mut actions);
         self.let_go(ui, target, &mut actions);

@@ -79,13 +79,15 @@ pub fn frame(ui: &egui::Style, state: &State, interaction: NodeInteraction) -> e
     let visuals = &ui.visuals;
     let border = match state {
         _ if interaction.selected || interaction.in_selection_rect => Stroke::new(2.0, visuals.selection.stroke.color),
-        State::Failed(_) => Stroke::new(1.5, state.color()),
+        State::Failed(_) => Stroke::new(2.0, state.color()),
         _ if interaction.hovered => Stroke::new(1.0, visuals.widgets.hovered.bg_stroke.color),
         _ => Stroke::new(1.0, visuals.widgets.noninteractive.bg_stroke.color),
     };
     egui::Frame::new()
         .fill(visuals.window_fill)
         .stroke(border)
+        // A thicker border must not make the node larger.
+        .inner_margin(2.0 - border.width)
         .corner_radius(CornerRadius::same(8))
         .shadow(egui::Shadow { offset: [0, 3], blur: 10, spread: 0, color: Color32::from_black_alpha(60) })
 }

@@ -130,7 +130,9 @@ impl<'a> Scene<'a> {
         if let Some(EdgeEvent::Started { kind, index }) = response.edge_event() {
             self.actions.extend(self.end(id, kind, index).map(Action::Hold));
         }
-        if response.secondary_clicked() && !self.session.selection.contains(id) {
+        // The library sees no click that begins and ends within one frame.
+        let clicked = response.clicked() && !ui.input(|input| input.modifiers.any());
+        if (clicked || response.secondary_clicked()) && !self.session.selection.contains(id) {
             self.actions.push(Action::Select([id.to_owned()].into()));
         }
         response.context_menu(|ui| menus::node(ui, self.session, id, &mut self.actions));
