@@ -86,8 +86,10 @@ fn dragging_a_knot_is_one_step() {
         harness.hover_at(knot + Vec2::new(4.0, 3.0) * step as f32);
         harness.step();
     }
+    assert!(harness.state().session.interacting);
     harness.drop_at(knot + Vec2::new(20.0, 15.0));
     harness.run_steps(3);
+    assert!(!harness.state().session.interacting);
     let Some(Value::TransferFunction(function)) = value(&harness, "transfer_function") else { panic!("no function") };
     assert!(function.knots[1].at > 70.0 && function.knots[1].opacity < 0.35, "{function:?}");
     assert!(harness.state_mut().session.document.undo());
@@ -107,7 +109,10 @@ fn a_click_adds_a_knot_and_the_right_button_removes_it() {
     harness.drop_at(place);
     harness.run_steps(3);
     assert_eq!(count(&harness), 5);
-    harness.get_by_label("Knot 5 of Transfer function").click_secondary();
+    click(&mut harness, Role::Button, "Split");
+    let Some(Value::TransferFunction(function)) = value(&harness, "transfer_function") else { panic!("no function") };
+    assert!(function.knots[3].right.is_some() && function.check().is_ok());
+    harness.get_by_label("Knot 4 of Transfer function").click_secondary();
     harness.run_steps(3);
     assert_eq!(count(&harness), 4);
 }

@@ -50,6 +50,8 @@ struct Resolved {
 pub struct PropertiesPanel {
     cache: Cache,
     tools: Tools,
+    /// Whether a value is being dragged.
+    dragging: bool,
 }
 
 impl PropertiesPanel {
@@ -73,6 +75,10 @@ impl PropertiesPanel {
                 }
             });
         });
+        // Pictures follow a dragged value more readily when they are small.
+        let held = ui.input(|input| input.pointer.any_down());
+        self.dragging = held && (self.dragging || actions.iter().any(|action| matches!(action, Action::Set(..))));
+        session.interacting |= self.dragging;
         action::apply(ui, session, actions);
     }
 }
