@@ -75,7 +75,7 @@ fn only_processors_that_fit_are_offered() {
     let at =
         |end: End| fitting(&registry, &network, &end).iter().map(|fit| fit.declaration.to_owned()).collect::<Vec<_>>();
     let after_proxy = at(End::Outport("proxy.geometry".parse().expect("an address")));
-    assert_eq!(after_proxy, ["entry_exit_points"]);
+    assert!(after_proxy.contains(&"entry_exit_points".to_owned()) && !after_proxy.contains(&"cube_proxy".to_owned()));
     let before_proxy = at(End::Inport("proxy.volume".parse().expect("an address")));
     assert!(before_proxy.contains(&"volume_source".to_owned()) && !before_proxy.contains(&"canvas".to_owned()));
 }

@@ -127,7 +127,7 @@ fn add(session: &mut Session, action: Action) {
             Ok(one(id))
         }),
         Action::Replace(id, type_id) => {
-            drop(session.edit(&format!("replace {id}"), |network| wiring::replace(network, &id, &type_id)))
+            session.edit(&format!("replace {id}"), |network| wiring::replace(network, &id, &type_id));
         }
         Action::Duplicate if !session.selection.is_empty() => {
             let ids = session.selection.clone();
