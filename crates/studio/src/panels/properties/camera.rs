@@ -28,9 +28,7 @@ pub(super) fn show(
     views(ui, &mut after, surroundings);
     let name = |ui: &mut Ui, text: &str| ui.weak(text);
     Grid::new("camera").num_columns(2).spacing([6.0, 3.0]).show(ui, |ui| {
-        for (label, values) in
-            [("Position", &mut after.position), ("Focus", &mut after.focus), ("Up", &mut after.up)]
-        {
+        for (label, values) in [("Position", &mut after.position), ("Focus", &mut after.focus), ("Up", &mut after.up)] {
             name(ui, label);
             ui.horizontal(|ui| *values = vector::triple(ui, decl, label, *values, surroundings).unwrap_or(*values));
             ui.end_row();

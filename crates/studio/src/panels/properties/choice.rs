@@ -41,7 +41,8 @@ fn item(ui: &mut Ui, choice: &Choice, selected: bool) -> bool {
         job.append(&format!("\n{}", choice.help), 0.0, format(11.0, color));
     }
     let response = ui.add(egui::Button::selectable(selected, job).wrap().min_size(egui::vec2(HELP_WIDTH, 0.0)));
-    response.widget_info(|| egui::WidgetInfo::selected(egui::WidgetType::SelectableLabel, true, selected, &choice.label));
+    response
+        .widget_info(|| egui::WidgetInfo::selected(egui::WidgetType::SelectableLabel, true, selected, &choice.label));
     response.clicked()
 }
 
@@ -51,8 +52,8 @@ pub(super) fn snippets(slot: &str) -> Vec<Choice> {
     let Some(slot) = Slot::from_id(slot) else { return Vec::new() };
     let automatic = (slot == Slot::Skipping)
         .then(|| Choice::new("auto", "Automatic", "Chosen by the share of bricks in which anything is visible."));
-    let snippets = library.snippets(slot).map(|(path, declaration)| {
-        Choice::new(Library::id(path), declaration.label.clone(), declaration.help.clone())
-    });
+    let snippets = library
+        .snippets(slot)
+        .map(|(path, declaration)| Choice::new(Library::id(path), declaration.label.clone(), declaration.help.clone()));
     automatic.into_iter().chain(snippets).collect()
 }

@@ -104,7 +104,8 @@ pub(super) fn show(
         (PropertyKind::Bool, Value::Bool(on)) => yes_or_no(ui, decl, *on),
         (PropertyKind::Int { range, unit }, Value::Int(number)) => {
             let range = range.map(|end| end as f64);
-            let field = Number { label: &decl.label, range, slider: finite(range), unit, logarithmic: false, whole: true };
+            let field =
+                Number { label: &decl.label, range, slider: finite(range), unit, logarithmic: false, whole: true };
             let entered = field.show(ui, *number as f64, width);
             surroundings.number(decl, entered).map(|number| Value::Int(number as i64))
         }

@@ -14,7 +14,12 @@ use crate::session::Severity;
 const LARGEST: u64 = 16 << 20;
 
 /// A menu that reads and writes a value; the value that was read.
-pub(super) fn menu(ui: &mut Ui, decl: &PropertyDecl, value: &Value, surroundings: &mut Surroundings<'_>) -> Option<Value> {
+pub(super) fn menu(
+    ui: &mut Ui,
+    decl: &PropertyDecl,
+    value: &Value,
+    surroundings: &mut Surroundings<'_>,
+) -> Option<Value> {
     let (import, export) = (ui.make_persistent_id("import"), ui.make_persistent_id("export"));
     let json = || format!("{:#}\n", value.to_json());
     let extensions = ["json".to_owned()];

@@ -9,7 +9,12 @@ use super::dialog::Question;
 use super::editor::Surroundings;
 
 /// Shows a file; the new path if the user chose one.
-pub(super) fn show(ui: &mut Ui, decl: &PropertyDecl, path: &str, surroundings: &mut Surroundings<'_>) -> Option<String> {
+pub(super) fn show(
+    ui: &mut Ui,
+    decl: &PropertyDecl,
+    path: &str,
+    surroundings: &mut Surroundings<'_>,
+) -> Option<String> {
     let PropertyKind::File { extensions, save, required } = &decl.kind else { return None };
     let who = ui.make_persistent_id("dialog");
     let folder = Path::new(path).parent().filter(|folder| folder.is_dir()).or(surroundings.folder);

@@ -24,7 +24,10 @@ pub(super) fn show(ui: &mut Ui, session: &Session, id: &str, actions: &mut Vec<A
     });
     state(ui, session, id);
     if processor.is_placeholder() {
-        ui.colored_label(theme::WARNING, "This type of processor is not known here. What the file says about it is kept.");
+        ui.colored_label(
+            theme::WARNING,
+            "This type of processor is not known here. What the file says about it is kept.",
+        );
     }
     ui.add_space(2.0);
 }

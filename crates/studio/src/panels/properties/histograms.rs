@@ -77,7 +77,9 @@ impl Histograms {
             return entry.counted.clone();
         }
         self.planes.insert(key, Entry { _volume: Arc::downgrade(volume), counted: None });
-        self.count(volume, move |volume| Counted::Plane(key, histogram_2d(volume, channel, [bins(volume, channel), BINS_UP])));
+        self.count(volume, move |volume| {
+            Counted::Plane(key, histogram_2d(volume, channel, [bins(volume, channel), BINS_UP]))
+        });
         None
     }
 

@@ -29,7 +29,8 @@ pub(super) fn show(
     let mut after = table.clone();
     let rows = table.labels.len();
     let height = super::row::HEIGHT;
-    let scroll = egui::ScrollArea::vertical().id_salt("labels").max_height(9.0 * (height + 4.0)).auto_shrink([false, true]);
+    let scroll =
+        egui::ScrollArea::vertical().id_salt("labels").max_height(9.0 * (height + 4.0)).auto_shrink([false, true]);
     scroll.show_rows(ui, height, rows, |ui, shown| {
         for (number, label) in table.labels.iter().skip(shown.start).take(shown.len()) {
             ui.push_id(number, |ui| {
@@ -48,7 +49,9 @@ pub(super) fn show(
     ui.horizontal(|ui| {
         if ui.button("Add a label").clicked() {
             let number = table.labels.keys().next_back().map_or(1, |last| last.saturating_add(1));
-            after.labels.insert(number, uniform(format!("Label {number}"), COLORS[number as usize % COLORS.len()], 0.5));
+            after
+                .labels
+                .insert(number, uniform(format!("Label {number}"), COLORS[number as usize % COLORS.len()], 0.5));
         }
         if rows == 0 {
             ui.weak("Voxels with a label that is not listed are transparent.");
@@ -88,7 +91,8 @@ fn row(ui: &mut Ui, decl: &PropertyDecl, number: u32, label: &Label, surrounding
             false => recolored(label, |color| color, scale),
         });
     }
-    if ui.add(egui::Button::new(RichText::new("✖").size(10.5).weak()).frame(false)).on_hover_text("Remove").clicked() {
+    if ui.add(egui::Button::new(RichText::new("✖").size(10.5).weak()).frame(false)).on_hover_text("Remove").clicked()
+    {
         edit = Edit::Remove;
     }
     edit

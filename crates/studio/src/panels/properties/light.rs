@@ -23,7 +23,8 @@ pub(super) fn show(
         ui.vertical(|ui| {
             ui.horizontal(|ui| {
                 ui.weak("Fixed to");
-                ui.selectable_value(&mut after.space, LightSpace::Camera, "Camera").on_hover_text("Moves with the viewer");
+                ui.selectable_value(&mut after.space, LightSpace::Camera, "Camera")
+                    .on_hover_text("Moves with the viewer");
                 ui.selectable_value(&mut after.space, LightSpace::World, "World").on_hover_text("Stays in the scene");
             });
             ui.horizontal(|ui| color(ui, decl, &mut after, surroundings));
@@ -54,7 +55,14 @@ fn color(ui: &mut Ui, decl: &PropertyDecl, light: &mut Light, surroundings: &mut
         light.color = picked.map(|c| c * strength.max(1e-3));
     }
     let label = "Strength";
-    let field = Number { label, range: [0.0, 100.0], slider: Some([0.0, 3.0]), unit: "strength", logarithmic: false, whole: false };
+    let field = Number {
+        label,
+        range: [0.0, 100.0],
+        slider: Some([0.0, 3.0]),
+        unit: "strength",
+        logarithmic: false,
+        whole: false,
+    };
     let entered = field.show(ui, strength, ui.available_width());
     if let Some(strength) = surroundings.number(decl, entered) {
         light.color = hue.map(|c| c * strength);
@@ -65,7 +73,9 @@ fn color(ui: &mut Ui, decl: &PropertyDecl, light: &mut Light, surroundings: &mut
 /// y up; for a light in the world it is seen from the front, right is left.
 fn sphere(ui: &mut Ui, decl: &PropertyDecl, light: &mut Light) {
     let (area, response) = ui.allocate_exact_size(Vec2::splat(SIZE), Sense::click_and_drag());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Other, true, format!("Direction of {}", decl.label)));
+    response.widget_info(|| {
+        egui::WidgetInfo::labeled(egui::WidgetType::Other, true, format!("Direction of {}", decl.label))
+    });
     let radius = SIZE / 2.0 - 2.0;
     let length = light.direction.iter().map(|c| c * c).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
     let unit = to_screen(light.space, light.direction.map(|c| c / length));

@@ -32,7 +32,8 @@ pub(super) fn menu(ui: &mut Ui, decl: &PropertyDecl, address: &Address, surround
             ui.weak("No other processor has a property that fits.");
         }
         for other in fitting {
-            if ui.button(other.to_string()).on_hover_text("Takes the value from there and stays equal to it").clicked() {
+            if ui.button(other.to_string()).on_hover_text("Takes the value from there and stays equal to it").clicked()
+            {
                 surroundings.actions.push(Action::Link(address.clone(), other));
                 ui.close();
             }
@@ -45,7 +46,8 @@ fn fitting(network: &Network, address: &Address, decl: &PropertyDecl) -> Vec<Add
     let others = network.processors().filter(|processor| processor.id() != address.processor);
     let mut found: Vec<Address> = others
         .flat_map(|processor| {
-            let same_kind = |other: &PropertyDecl| std::mem::discriminant(&other.kind) == std::mem::discriminant(&decl.kind);
+            let same_kind =
+                |other: &PropertyDecl| std::mem::discriminant(&other.kind) == std::mem::discriminant(&decl.kind);
             let decls = processor.property_decls().into_iter().filter(move |other| same_kind(other));
             decls.map(|other| Address::new(processor.id(), other.id))
         })

@@ -57,13 +57,15 @@ pub(super) fn sections(decls: Vec<PropertyDecl>, properties: &Properties) -> Vec
 /// Puts parameters (`shading.ambient`) and texts (`shading.text`) below the choice of the snippet (`shading`).
 fn entries(decls: Vec<PropertyDecl>) -> Vec<Entry> {
     let is_choice = |decl: &PropertyDecl| matches!(decl.kind, PropertyKind::Snippet { .. });
-    let (owners, others): (Vec<_>, Vec<_>) = decls.into_iter().partition(|decl| is_choice(decl) || !decl.id.contains('.'));
+    let (owners, others): (Vec<_>, Vec<_>) =
+        decls.into_iter().partition(|decl| is_choice(decl) || !decl.id.contains('.'));
     let entry = |decl| Entry { decl, parameters: Vec::new(), text: None };
     let mut entries: Vec<_> = owners.into_iter().map(entry).collect();
     for decl in others {
-        let owner = decl.id.split_once('.').and_then(|(slot, _)| {
-            entries.iter_mut().find(|entry| entry.decl.id == slot && is_choice(&entry.decl))
-        });
+        let owner = decl
+            .id
+            .split_once('.')
+            .and_then(|(slot, _)| entries.iter_mut().find(|entry| entry.decl.id == slot && is_choice(&entry.decl)));
         match (owner, &decl.kind) {
             (Some(owner), PropertyKind::ShaderText { .. }) => owner.text = Some(decl),
             (Some(owner), _) => owner.parameters.push(decl),

@@ -105,7 +105,8 @@ fn is_wide(kind: &PropertyKind) -> bool {
 /// The name: help when hovered, menu when clicked, a mark when linked.
 fn name(ui: &mut Ui, decl: &PropertyDecl, address: &Address, width: f32, surroundings: &mut Surroundings<'_>) {
     let (area, response) = ui.allocate_exact_size(Vec2::new(width, HEIGHT), Sense::click());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, format!("Menu of {}", decl.label)));
+    response
+        .widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, format!("Menu of {}", decl.label)));
     let linked = surroundings.network.links().iter().any(|link| link.other(address).is_some());
     let color = match response.hovered() {
         true => ui.visuals().strong_text_color(),

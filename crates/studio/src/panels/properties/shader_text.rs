@@ -130,12 +130,7 @@ fn code(ui: &mut Ui, decl: &PropertyDecl, text: &mut String, problems: &[(u32, S
 }
 
 /// The numbers of lines; those with problems in red.
-fn line_numbers(
-    ui: &Ui,
-    font: &egui::FontId,
-    lines: u32,
-    problems: &[(u32, String)],
-) -> egui::text::LayoutJob {
+fn line_numbers(ui: &Ui, font: &egui::FontId, lines: u32, problems: &[(u32, String)]) -> egui::text::LayoutJob {
     let mut numbers = egui::text::LayoutJob::default();
     for line in 1..=lines {
         let bad = problems.iter().any(|(bad, _)| *bad == line);

@@ -66,7 +66,10 @@ pub(super) fn show(
     plot::axis(ui, &plot, 60.0);
     empty_space(ui, decl, &plot, &mut state, &mut after, counted.as_deref());
     handles(ui, decl, &plot, &mut state, &mut after);
-    let strip = Rect::from_min_max(Pos2::new(plot.area.left(), area.bottom() - STRIP), Pos2::new(plot.area.right(), area.bottom()));
+    let strip = Rect::from_min_max(
+        Pos2::new(plot.area.left(), area.bottom() - STRIP),
+        Pos2::new(plot.area.right(), area.bottom()),
+    );
     window(ui, &plot, strip, &mut state, &mut after, background.id);
     knot_row(ui, decl, &mut state, &mut after, surroundings);
     tools(ui, decl, &mut state, &mut after, range, surroundings);
@@ -107,7 +110,8 @@ fn empty_space(
     counted: Option<&Histogram>,
 ) {
     let response = ui.interact(plot.area, ui.id().with("plot"), Sense::click());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Other, true, format!("Plot of {}", decl.label)));
+    response
+        .widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Other, true, format!("Plot of {}", decl.label)));
     let Some(pointer) = response.hover_pos() else { return };
     let (value, opacity) = (plot.tidy(plot.value(pointer.x)), plot.opacity(pointer.y));
     let voxels = counted.map(|counted| {
@@ -140,13 +144,19 @@ fn handles(ui: &mut Ui, decl: &PropertyDecl, plot: &Plot, state: &mut State, fun
             let response = ui.interact(area, ui.id().with(("knot", index, side)), Sense::click_and_drag());
             response.widget_info(|| {
                 let side = if side == Side::Right { " right" } else { "" };
-                egui::WidgetInfo::labeled(egui::WidgetType::Other, true, format!("Knot {}{side} of {}", index + 1, decl.label))
+                egui::WidgetInfo::labeled(
+                    egui::WidgetType::Other,
+                    true,
+                    format!("Knot {}{side} of {}", index + 1, decl.label),
+                )
             });
             if response.clicked() || response.drag_started() {
                 state.selected = Some((index, side));
                 response.request_focus();
             }
-            if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.dragged_by(PointerButton::Primary)) {
+            if let Some(pointer) =
+                response.interact_pointer_pos().filter(|_| response.dragged_by(PointerButton::Primary))
+            {
                 let value = plot.tidy(plot.value(pointer.x.clamp(plot.area.left(), plot.area.right())));
                 knots::move_to(function, index, value);
                 let opacity = (plot.opacity(pointer.y) * 1000.0).round() / 1000.0;
@@ -155,7 +165,8 @@ fn handles(ui: &mut Ui, decl: &PropertyDecl, plot: &Plot, state: &mut State, fun
             if response.has_focus() {
                 nudge(ui, plot, function, index, side);
             }
-            let delete = response.has_focus() && ui.input(|i| i.key_pressed(Key::Delete) || i.key_pressed(Key::Backspace));
+            let delete =
+                response.has_focus() && ui.input(|i| i.key_pressed(Key::Delete) || i.key_pressed(Key::Backspace));
             if response.secondary_clicked() || delete {
                 removed = Some(index);
             }
@@ -218,7 +229,9 @@ fn knot_row(
         ui.set_min_height(HEIGHT);
         ui.spacing_mut().item_spacing.x = 4.0;
         let Some((index, side)) = state.selected else {
-            ui.label(RichText::new("Click to add a knot, drag to move it, right-click to remove it.").weak().size(11.0));
+            ui.label(
+                RichText::new("Click to add a knot, drag to move it, right-click to remove it.").weak().size(11.0),
+            );
             return;
         };
         let look = knots::side(&function.knots[index], side);
@@ -227,7 +240,8 @@ fn knot_row(
         }
         let unbounded = [f64::NEG_INFINITY, f64::INFINITY];
         let width = (ui.available_width() - 76.0) / 2.0;
-        let field = |label, range, slider, unit| Number { label, range, slider, unit, logarithmic: false, whole: false };
+        let field =
+            |label, range, slider, unit| Number { label, range, slider, unit, logarithmic: false, whole: false };
         let entered = field("Value of the knot", unbounded, None, "value").show(ui, function.knots[index].at, width);
         if let Some(at) = surroundings.number(decl, entered) {
             knots::move_to(function, index, at);

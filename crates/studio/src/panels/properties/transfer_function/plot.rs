@@ -46,7 +46,11 @@ impl Plot {
             return value;
         }
         let step = 10_f64.powf(pixel.log10().floor());
-        let rounded = if step < 1.0 { (value * (1.0 / step).round()).round() / (1.0 / step).round() } else { (value / step).round() * step };
+        let rounded = if step < 1.0 {
+            (value * (1.0 / step).round()).round() / (1.0 / step).round()
+        } else {
+            (value / step).round() * step
+        };
         if rounded.is_finite() { rounded } else { value }
     }
 }
@@ -158,7 +162,8 @@ fn ticks(range: ValueRange, about: f64) -> Vec<f64> {
         return vec![range.min];
     }
     let ten = 10_f64.powf(rough.log10().floor());
-    let step = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * ten).into_iter().find(|step| *step >= rough).unwrap_or(rough);
+    let step =
+        [1.0, 2.0, 5.0, 10.0].map(|factor| factor * ten).into_iter().find(|step| *step >= rough).unwrap_or(rough);
     let first = (range.min / step).ceil();
     let count = ((range.max / step).floor() - first).clamp(0.0, 100.0) as usize;
     (0..=count).map(|index| (first + index as f64) * step).collect()

@@ -135,17 +135,22 @@ fn image(counted: &Histogram2D) -> ColorImage {
 /// The shapes: click to select, drag to move, right-click or Delete to remove.
 fn bodies(ui: &mut Ui, decl: &PropertyDecl, plane: &Plane, state: &mut State, function: &mut TransferFunction2D) {
     let response = ui.interact(plane.plot.area, ui.id().with("plane"), Sense::click_and_drag());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Other, true, format!("Plane of {}", decl.label)));
+    response
+        .widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Other, true, format!("Plane of {}", decl.label)));
     let at = |function: &TransferFunction2D, pointer: Pos2| {
         let point = plane.point(pointer);
         function.primitives.iter().rposition(|primitive| shapes::contains(&shapes::outline(&primitive.shape), point))
     };
     let pressed = ui.input(|input| input.pointer.press_origin());
-    if (response.clicked() || response.drag_started()) && let Some(pointer) = pressed.or(response.interact_pointer_pos()) {
+    if (response.clicked() || response.drag_started())
+        && let Some(pointer) = pressed.or(response.interact_pointer_pos())
+    {
         state.selected = at(function, pointer);
         response.request_focus();
     }
-    if response.dragged() && let Some(index) = state.selected {
+    if response.dragged()
+        && let Some(index) = state.selected
+    {
         let delta = response.drag_delta();
         let value = f64::from(delta.x / plane.plot.area.width()) * plane.plot.range.width();
         let gradient = f64::from(-delta.y / plane.plot.area.height()) * plane.gradient_max;
@@ -169,7 +174,13 @@ fn bodies(ui: &mut Ui, decl: &PropertyDecl, plane: &Plane, state: &mut State, fu
         let opacity = function.evaluate(value, gradient).opacity;
         let text = format!("{}   gradient {}   opacity {opacity:.3}", number::format(value), number::format(gradient));
         let at = plane.plot.area.left_top() + Vec2::new(6.0, 3.0);
-        ui.painter().text(at, egui::Align2::LEFT_TOP, text, egui::FontId::proportional(10.5), ui.visuals().text_color());
+        ui.painter().text(
+            at,
+            egui::Align2::LEFT_TOP,
+            text,
+            egui::FontId::proportional(10.5),
+            ui.visuals().text_color(),
+        );
     }
 }
 
@@ -210,7 +221,8 @@ fn shape_row(
         ui.set_min_height(HEIGHT);
         ui.spacing_mut().item_spacing.x = 4.0;
         let Some(primitive) = state.selected.and_then(|index| function.primitives.get_mut(index)) else {
-            let hint = if function.primitives.is_empty() { "Add a shape below." } else { "Click a shape to change it." };
+            let hint =
+                if function.primitives.is_empty() { "Add a shape below." } else { "Click a shape to change it." };
             ui.label(RichText::new(hint).weak().size(11.0));
             return;
         };

@@ -76,7 +76,8 @@ pub(super) fn outline(shape: &Shape) -> Vec<Point> {
 pub(super) fn contains(polygon: &[Point], [x, y]: Point) -> bool {
     let edges = polygon.iter().zip(polygon.iter().cycle().skip(1));
     // The point is inside when a ray to the right crosses an odd number of edges.
-    let crossings = edges.filter(|&(a, b)| (a[1] > y) != (b[1] > y) && x < (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]) + a[0]);
+    let crossings =
+        edges.filter(|&(a, b)| (a[1] > y) != (b[1] > y) && x < (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]) + a[0]);
     crossings.count() % 2 == 1
 }
 
@@ -91,7 +92,9 @@ pub(super) const NEW: [(&str, Shape); 3] = [
 pub(super) fn placed(shape: &Shape, low: f64, size: Point) -> Shape {
     let (value, gradient) = (|share: f64| low + share * size[0], |share: f64| share * size[1]);
     match *shape {
-        Shape::Rectangle { value: v, gradient: g } => Shape::Rectangle { value: v.map(value), gradient: g.map(gradient) },
+        Shape::Rectangle { value: v, gradient: g } => {
+            Shape::Rectangle { value: v.map(value), gradient: g.map(gradient) }
+        }
         Shape::Triangle { apex, base, base_gradient } => Shape::Triangle {
             apex: [value(apex[0]), gradient(apex[1])],
             base: base.map(value),
