@@ -4,7 +4,7 @@ use egui_tiles::{Container, LinearDir, Tile, TileId, Tiles, Tree};
 
 use super::Pane;
 
-/// Opens a pane, or brings it to the front if it is open. Inspectors lie side by side below the network, everything else in
+/// Opens a pane, or brings it to the front if it is open. Inspectors lie side by side, beside the canvas, everything else in
 /// tabs with the properties.
 pub fn open(tree: &mut Tree<Pane>, pane: Pane) {
     if let Some(known) = tree.tiles.find_pane(&pane) {
@@ -16,9 +16,7 @@ pub fn open(tree: &mut Tree<Pane>, pane: Pane) {
     let place = match pane {
         Pane::Inspector(_) => first(|pane| matches!(pane, Pane::Inspector(_)))
             .map(|inspector| (inspector, Some(LinearDir::Horizontal)))
-            .or_else(|| {
-                first(|pane| matches!(pane, Pane::Network)).map(|network| (network, Some(LinearDir::Vertical)))
-            }),
+            .or_else(|| first(|pane| matches!(pane, Pane::Canvas)).map(|canvas| (canvas, Some(LinearDir::Horizontal)))),
         _ => first(|pane| matches!(pane, Pane::Properties)).map(|properties| (properties, None)),
     };
     let new = tree.tiles.insert_pane(pane);

@@ -82,7 +82,7 @@ impl View {
         let numbers = statistics.as_deref().and_then(|statistics| statistics.as_ref().ok());
         let margin = egui::Frame::new().inner_margin(egui::Margin::symmetric(8, 4));
         margin.show(ui, |ui| self.toolbar(ui, session, outport, image, numbers));
-        egui::Panel::bottom(ui.id().with(("reading", outport))).show(ui, |ui| {
+        egui::Panel::bottom(ui.id().with(("reading", outport))).resizable(false).show(ui, |ui| {
             self.readout(ui, session, outport, image);
             if self.numbers {
                 facts(ui, image);
@@ -275,7 +275,12 @@ impl View {
                 let mut parts: Vec<_> =
                     values.map(|(name, value)| format!("{name} {}", number(value.into()))).collect();
                 parts.extend(reading.depth.map(|depth| format!("depth {}", number(depth.into()))));
-                ui.monospace(format!("({}, {})  {}", reading.at[0], reading.at[1], parts.join("  ")));
+                parts.insert(0, format!("({}, {})", reading.at[0], reading.at[1]));
+                ui.horizontal_wrapped(|ui| {
+                    for part in parts {
+                        ui.monospace(part);
+                    }
+                });
             }
         }
     }
