@@ -2,6 +2,7 @@
 
 use rayloom_reference::metrics::VISIBLE_ERROR;
 
+use crate::budget::GRADIENT;
 use crate::report::text::{milliseconds, number, percent};
 use crate::{Measured, Measurements, pareto::Point};
 
@@ -26,6 +27,7 @@ pub(crate) fn advice(measurements: &Measurements) -> String {
         ),
     }];
     sentences.extend(saved(measurements, &front));
+    sentences.extend(cause(measurements));
     sentences.join(" ")
 }
 
@@ -67,7 +69,7 @@ impl<'a> Front<'a> {
 
 /// How the network as saved does.
 fn saved(measurements: &Measurements, front: &Front<'_>) -> Option<String> {
-    let index = measurements.settings.iter().position(|one| one.setting.assignments.is_empty())?;
+    let index = measurements.saved()?;
     if front.unseen() == Some(index) {
         return Some("That is how the network is saved.".into());
     }
@@ -88,6 +90,14 @@ fn saved(measurements: &Measurements, front: &Front<'_>) -> Option<String> {
         ),
         None => format!("{found}{}; no setting is better in both.", front.costs(index)),
     })
+}
+
+/// What most of the error of the network as saved comes from. How gradients are estimated is a choice, not an error.
+fn cause(measurements: &Measurements) -> Option<String> {
+    let rows = measurements.budget.as_ref()?.rows.iter().filter(|row| row.cause != GRADIENT);
+    let sized = rows.filter_map(|row| Some((row.cause, row.change?.rmse)));
+    let (cause, rmse) = sized.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    (rmse > 0.0).then(|| format!("Most of its error comes from the {cause}."))
 }
 
 fn quoted(measured: &Measured) -> String {

@@ -11,6 +11,8 @@ use crate::{Errors, Listener, MeasureError, Setting};
 
 /// How many times finer the samples are when the quadrature is switched off.
 const FINER: f64 = 16.0;
+/// The cause that is a departure from another estimate, not an error.
+pub(crate) const GRADIENT: &str = "gradient estimate";
 /// The highest sampling rate there is.
 const MOST: f64 = 4096.0;
 
@@ -61,7 +63,7 @@ pub(crate) fn budget(
     let mut switches = vec![
         switch("quadrature along the ray", traversal, "sampling_rate", json!(rate)),
         switch("weights of interpolation", traversal, "sampling", json!("trilinear")),
-        switch("gradient estimate", traversal, "gradient", json!("central4")),
+        switch(GRADIENT, traversal, "gradient", json!("central4")),
         switch("storage of the volume", chain.source.as_deref(), "precision", json!("32-bit")),
         switch("storage of entry and exit points", Some(&chain.view), "format", json!("32-bit")),
         switch("storage of the picture", traversal, "target", json!("32-bit")),

@@ -6,7 +6,7 @@ use crate::setting::plain;
 use crate::{Assignment, Measured, Measurements, Setting};
 
 /// The columns behind those of the varied properties.
-const COLUMNS: [&str; 17] = [
+const COLUMNS: [&str; 18] = [
     "time_ms",
     "time_low_ms",
     "time_high_ms",
@@ -22,6 +22,7 @@ const COLUMNS: [&str; 17] = [
     "on_front_time",
     "on_front_samples",
     "dominated_by",
+    "departs",
     "notes",
     "refused",
 ];
@@ -73,6 +74,7 @@ fn fields(measurements: &Measurements, index: usize, measured: &Measured) -> [St
         measurements.front_time.contains(&index).to_string(),
         measurements.front_samples.contains(&index).to_string(),
         by.unwrap_or_default(),
+        measured.departs.to_string(),
         measured.notes.join(" "),
         String::new(),
     ]

@@ -53,6 +53,9 @@ pub struct Measured {
     pub counts: Counts,
     /// Errors over all views.
     pub errors: Errors,
+    /// Whether the setting stands for another picture than the network as saved (another interpolation, another gradient), so
+    /// that its errors are a departure and not a price. Only the exact reference can tell.
+    pub departs: bool,
     /// What the processors had to say.
     pub notes: Vec<String>,
     /// Error of every pixel of the first view, row by row.
@@ -123,11 +126,22 @@ impl Measurements {
         self.settings.iter().map(|one| Point { cost: one.counts.samples as f64, error: one.errors.rmse }).collect()
     }
 
-    /// Fills in the fronts and what is dominated.
+    /// Fills in the fronts and what is dominated. Settings that depart from what the network stands for take no part.
     pub(crate) fn compare(&mut self) {
-        let (time, samples) = (self.by_time(), self.by_samples());
-        (self.front_time, self.front_samples) = (pareto::front(&time), pareto::front(&samples));
+        let taking_part = |mut points: Vec<Point>| {
+            let departing = points.iter_mut().zip(&self.settings).filter(|(_, one)| one.departs);
+            departing.for_each(|(point, _)| point.cost = f64::NAN);
+            points
+        };
+        let (time, samples) = (taking_part(self.by_time()), taking_part(self.by_samples()));
         let dominator = |i| pareto::dominator(&time, i).map(|by| (i, by));
-        self.dominated = (0..time.len()).filter_map(dominator).collect();
+        let dominated = (0..time.len()).filter_map(dominator).collect();
+        (self.front_time, self.front_samples, self.dominated) =
+            (pareto::front(&time), pareto::front(&samples), dominated);
+    }
+
+    /// The network as saved, if it can be rendered.
+    pub(crate) fn saved(&self) -> Option<usize> {
+        self.settings.iter().position(|one| one.setting.assignments.is_empty())
     }
 }

@@ -8,7 +8,7 @@ use crate::bench::Bench;
 use crate::chain::Chain;
 use crate::views::views;
 use crate::yardstick::{Standard, Yardstick, choose, finest};
-use crate::{Counts, Errors, Listener, MeasureError, Measured, Measurements, Plan, Refused, Setting, Summary};
+use crate::{Counts, Errors, Listener, MeasureError, Measured, Measurements, Plan, Refused, Setting, Subject, Summary};
 use crate::{advice, budget};
 
 /// Lowest sampling rate of the finest setting.
@@ -107,6 +107,10 @@ fn compare(
         false => yardstick.draw(bench, &Setting::saved(), views)?,
     };
     let mut result = Compared { settings: Vec::new(), refused: Vec::new(), own: Vec::new(), picture: Vec::new() };
+    let meant = match yardstick.standard == Standard::Exact {
+        true => Some(meaning(bench, &Setting::saved(), views)?),
+        false => None,
+    };
     let count = settings.len();
     for (index, setting) in settings.into_iter().enumerate() {
         (yardstick.listener)(&format!("comparing: {}", setting.name), index as f64 / count as f64);
@@ -120,7 +124,11 @@ fn compare(
             }
         }
         match compare_one(bench, &setting, views, &common) {
-            Ok((measured, pixels)) => {
+            Ok((mut measured, pixels)) => {
+                measured.departs = match &meant {
+                    Some(meant) => departs(bench, &setting, views, meant)?,
+                    None => false,
+                };
                 if setting.assignments.is_empty() {
                     result.own = pixels;
                 }
@@ -142,6 +150,21 @@ fn compare(
                 .join("\n"),
         )),
         false => Ok(result),
+    }
+}
+
+/// What the first view shows with a setting.
+fn meaning(bench: &mut Bench, setting: &Setting, views: &[Camera]) -> Result<Subject, MeasureError> {
+    bench.set(setting, &views[0])?;
+    bench.subject()
+}
+
+/// Whether a setting stands for something else than what is meant.
+fn departs(bench: &mut Bench, setting: &Setting, views: &[Camera], meant: &Subject) -> Result<bool, MeasureError> {
+    match meaning(bench, setting, views) {
+        Ok(shown) => Ok(!shown.stands_for(meant)),
+        Err(MeasureError::Refusal(_)) => Ok(true),
+        Err(other) => Err(other),
     }
 }
 
@@ -173,7 +196,8 @@ fn compare_one(
     notes.dedup();
     let (errors, each) = Errors::of(&pixels, reference)?;
     let map = each[..each.len() / views.len()].iter().map(|&error| error as f32).collect();
-    Ok((Measured { setting: setting.clone(), time_ms: None, counts: total, errors, notes, map }, pixels))
+    let setting = setting.clone();
+    Ok((Measured { setting, time_ms: None, counts: total, errors, departs: false, notes, map }, pixels))
 }
 
 /// Times all settings, taking turns.

@@ -105,6 +105,21 @@ impl Subject {
         }
     }
 
+    /// Whether the exact pictures of both are the same.
+    pub(crate) fn stands_for(&self, other: &Self) -> bool {
+        let surface = |method| match method {
+            Method::Isosurface { value, .. } => Method::Isosurface { value, refinement: Refinement::None },
+            other => other,
+        };
+        surface(self.method) == surface(other.method)
+            && same_values(&self.volume, &other.volume)
+            && (self.channel, self.sampling, self.gradient, self.size)
+                == (other.channel, other.sampling, other.gradient, other.size)
+            && (self.clip, self.camera, self.shading) == (other.clip, other.camera, other.shading)
+            && self.reference_length == other.reference_length
+            && self.classification == other.classification
+    }
+
     /// Whether a reference can draw it.
     ///
     /// # Errors
@@ -115,6 +130,12 @@ impl Subject {
             _ => Ok(()),
         }
     }
+}
+
+fn same_values(a: &Arc<Volume>, b: &Arc<Volume>) -> bool {
+    let place = |volume: &Volume| (volume.dims, volume.channels, volume.index_to_world, volume.role);
+    let scale = |volume: &Volume| (volume.slope, volume.intercept);
+    Arc::ptr_eq(a, b) || (place(a) == place(b) && scale(a) == scale(b) && a.voxels == b.voxels)
 }
 
 /// The property that chooses the compositing of an outport.

@@ -121,7 +121,7 @@ pub struct MeasureArgs {
     /// Vary a property; may be repeated: every combination of the values is measured.
     #[arg(long, value_name = "PROCESSOR.PROPERTY=A,B,C", value_parser = vary)]
     pub vary: Vec<Vary>,
-    /// Vary a ready knob around the network's own setting, one at a time; may be repeated: rate, integrator, sampling,
+    /// Vary a ready knob around the network's own setting; may be repeated: quality, rate, integrator, sampling,
     /// gradient, entry, volume, target, termination, skipping, or all, which is what happens when nothing is varied.
     #[arg(long, value_name = "NAME")]
     pub ladder: Vec<String>,

@@ -115,7 +115,8 @@ impl Studio {
         self.session.mode = match self.session.mode {
             Mode::Development => Mode::Visualization,
             Mode::Visualization if Application::of(self.session.network()).0.locked => {
-                self.session.tell(Severity::Note, "this file is locked in visualization mode; open it in development mode");
+                self.session
+                    .tell(Severity::Note, "this file is locked in visualization mode; open it in development mode");
                 Mode::Visualization
             }
             Mode::Visualization => Mode::Development,
@@ -268,4 +269,3 @@ impl eframe::App for Studio {
         context.send_viewport_cmd(egui::ViewportCommand::Title(self.title()));
     }
 }
-

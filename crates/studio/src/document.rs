@@ -35,7 +35,8 @@ impl Document {
     }
 
     fn of(network: Network, path: Option<PathBuf>) -> Self {
-        let mut document = Self { network, path, undo: Vec::new(), redo: Vec::new(), saved: String::new(), revision: 1 };
+        let mut document =
+            Self { network, path, undo: Vec::new(), redo: Vec::new(), saved: String::new(), revision: 1 };
         document.saved = document.text();
         document
     }

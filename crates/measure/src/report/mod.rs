@@ -73,16 +73,16 @@ fn plots(measurements: &Measurements) -> String {
     format!(
         "<section><h2>What accuracy costs</h2><div class=\"pair\"><figure>{time}<figcaption>Error against time. Bars: 5 to \
          95 % of the timings.</figcaption></figure><figure>{}<figcaption>Error against samples, whatever the \
-         machine.</figcaption></figure></div><p class=\"quiet\"><span class=\"dot best\"></span> on the front: nothing else is \
-         both cheaper and more accurate &emsp; <span class=\"dot other\"></span> beaten by a point of the front &emsp; <span \
-         class=\"dot ring\"></span> as saved. Hover over a point for its name.</p></section>",
+         machine.</figcaption></figure></div><p class=\"legend\"><span><i class=\"dot best\"></i>on the front: nothing else is both \
+         cheaper and more accurate</span><span><i class=\"dot other\"></i>beaten by the front</span><span><i class=\"dot \
+         departing\"></i>stands for another picture</span><span><i class=\"dot ring\"></i>as saved</span></p></section>",
         by_samples.svg()
     )
 }
 
 /// Where the errors are, along the front.
 fn maps(measurements: &Measurements) -> Result<String, MeasureError> {
-    let saved = measurements.settings.iter().position(|one| one.setting.assignments.is_empty());
+    let saved = measurements.saved();
     let front = if measurements.front_time.is_empty() { &measurements.front_samples } else { &measurements.front_time };
     let mut shown: Vec<usize> = saved.into_iter().collect();
     shown.extend(front.iter().copied().filter(|i| Some(*i) != saved));

@@ -49,9 +49,10 @@ impl Axis {
         self.from + (log.clamp(self.low, self.high) - self.low) / (self.high - self.low) * (self.to - self.from)
     }
 
-    /// Powers of ten; 1, 2 and 5 of each where there are few.
+    /// Powers of ten; 1, 2 and 5 of each where there is room.
     fn ticks(&self) -> Vec<f64> {
-        let wide = self.high - self.low > 2.2;
+        const ROOM: f64 = 170.0;
+        let wide = (self.to - self.from).abs() / (self.high - self.low) < ROOM;
         let steps: &[f64] = if wide { &[1.0] } else { &[1.0, 2.0, 5.0] };
         let decades = self.low.floor() as i32..=self.high.ceil() as i32;
         let ticks = decades.flat_map(|decade| steps.iter().map(move |step| step * 10f64.powi(decade)));
@@ -149,7 +150,11 @@ impl Plot<'_> {
             if measured.setting.assignments.is_empty() {
                 let _ = write!(svg, "<circle class=\"saved\" cx=\"{px:.1}\" cy=\"{py:.1}\" r=\"9\"/>");
             }
-            let (class, radius) = if on_front { ("best", 4.5) } else { ("other", 3.5) };
+            let (class, radius) = match (on_front, measured.departs) {
+                (true, _) => ("best", 4.5),
+                (false, true) => ("departing", 3.0),
+                (false, false) => ("other", 3.5),
+            };
             let _ = write!(
                 svg,
                 "<circle class=\"{class}\" cx=\"{px:.1}\" cy=\"{py:.1}\" r=\"{radius}\"><title>{}: {} {}, error {}</title></circle>",
@@ -165,8 +170,7 @@ impl Plot<'_> {
 
     /// Names of the front, each where it covers nothing else; of the others only the network as saved.
     fn labels(&self, svg: &mut String, x: Axis, y: Axis, taken: &mut Vec<Taken>) {
-        let saved = self.measurements.settings.iter().position(|one| one.setting.assignments.is_empty());
-        let saved = saved.filter(|i| !self.front.contains(i) && self.points[*i].cost.is_finite());
+        let saved = self.measurements.saved().filter(|i| !self.front.contains(i) && self.points[*i].cost.is_finite());
         for &i in self.front.iter().chain(saved.iter()) {
             let name = &self.measurements.settings[i].setting.name;
             let (px, py) = (x.at(self.points[i].cost), y.at(self.points[i].error));

@@ -11,7 +11,7 @@ h1{font-size:32px;line-height:1.15;margin:0 0 14px;letter-spacing:-.01em}
 h2{font-size:19px;margin:0 0 12px}
 .over{margin:0 0 4px;color:var(--best);font-weight:600;font-size:13px}
 .advice{font-size:18px;line-height:1.5;margin:0 0 12px;max-width:46em}
-.quiet{color:var(--quiet);font-size:13px;max-width:70em}
+.quiet{color:var(--quiet);font-size:13px;max-width:76em}
 section{background:var(--ground);border:1px solid var(--line);border-radius:10px;padding:22px 24px;margin-top:20px}
 figure{margin:0}
 figcaption{color:var(--quiet);font-size:13px;margin-top:6px}
@@ -31,6 +31,10 @@ svg .saved{fill:none;stroke:var(--ink);stroke-width:1.4}
 svg .name{font-weight:600;paint-order:stroke;stroke:#fff;stroke-width:3px;stroke-linejoin:round}
 svg .other-name{font-weight:400;fill:var(--quiet)}
 .dot{display:inline-block;width:9px;height:9px;border-radius:50%;vertical-align:0}
+.legend{display:flex;flex-wrap:wrap;gap:4px 26px;color:var(--quiet);font-size:13px;margin:14px 0 0}
+.legend i{margin-right:7px}
+svg .departing{fill:#fff;stroke:var(--other);stroke-width:1.4}
+.dot.departing{border:1.5px solid var(--other)}
 .dot.best{background:var(--best)}.dot.other{background:var(--other)}.dot.ring{border:1.5px solid var(--ink)}
 .scroll{overflow-x:auto}
 table{border-collapse:collapse;width:100%;font-size:13.5px;font-variant-numeric:tabular-nums}
@@ -44,6 +48,7 @@ tr.front td:first-child{color:var(--best);font-weight:600}
 td small{color:var(--quiet)}
 ul{margin:0;padding-left:20px}li{margin:3px 0}
 .bar{display:inline-block;height:8px;border-radius:4px;background:var(--best);opacity:.75;min-width:2px;vertical-align:middle}
+.reason{white-space:pre-line}
 .scale{display:flex;gap:8px;align-items:center;max-width:320px;color:var(--quiet);font-size:12px;margin:4px 0 14px}
 .scale i{flex:1;height:9px;border-radius:5px}
 .maps{display:grid;grid-template-columns:repeat(auto-fill,minmax(200px,1fr));gap:18px}

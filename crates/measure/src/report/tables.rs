@@ -20,20 +20,21 @@ pub(super) fn settings(measurements: &Measurements) -> String {
          <tbody>{rows}</tbody></table></div><p class=\"quiet\">Errors of premultiplied colours and opacities from 0 to 1, over all \
          views; of each pixel the largest of its four channels. Visibly off: by more than 1/510, half a code of an 8-bit picture. \
          ln T: logarithm of the transmittance, which tells errors in deep and dark parts. Tinted: on the front of time and \
-         error.</p></section>"
+         error. \u{2260}: stands for another picture than the network as saved, so its error is a departure.</p></section>"
     )
 }
 
 fn row(measurements: &Measurements, index: usize) -> String {
-    let Measured { setting, time_ms, counts, errors, notes, .. } = &measurements.settings[index];
+    let Measured { setting, time_ms, counts, errors, notes, departs, .. } = &measurements.settings[index];
     let class = if measurements.front_time.contains(&index) { " class=\"front\"" } else { "" };
+    let departs = if *departs { " <small>\u{2260}</small>" } else { "" };
     let (time, spread) = match time_ms {
         Some(time) => (milliseconds(time.median), format!("{} \u{2013} {}", number(time.low), number(time.high))),
         None => ("\u{2013}".into(), "\u{2013}".into()),
     };
     let contributing = counts.contributing as f64 / counts.samples.max(1) as f64;
     format!(
-        "<tr{class} title=\"{}\"><td>{}</td><td>{time}</td><td><small>{spread}</small></td><td>{}</td><td>{}</td><td>{}</td>\
+        "<tr{class} title=\"{}\"><td>{}{departs}</td><td>{time}</td><td><small>{spread}</small></td><td>{}</td><td>{}</td><td>{}</td>\
          <td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
         escaped(&notes.join(" ")),
         escaped(&setting.name),
@@ -53,26 +54,31 @@ pub(super) fn dominated(measurements: &Measurements) -> String {
     if measurements.dominated.is_empty() {
         return String::new();
     }
+    let numbers = |one: &Measured| {
+        let time = one.time_ms.map_or_else(|| "\u{2013}".into(), |time| milliseconds(time.median));
+        format!("<td>{time}</td><td>{}</td>", number(one.errors.rmse))
+    };
     let line = |(&worse, &better): (&usize, &usize)| {
         let (worse, better) = (&measurements.settings[worse], &measurements.settings[better]);
-        let cost = |one: &Measured| {
-            let time = one.time_ms.map_or_else(|| "no time".into(), |time| milliseconds(time.median));
-            format!("{time}, error {}", number(one.errors.rmse))
-        };
         let clear = match (worse.time_ms, better.time_ms) {
             (Some(worse), Some(better)) if better.high < worse.low => "",
-            _ => " Their times overlap: a matter of accuracy, not of speed.",
+            _ => "times overlap",
         };
         format!(
-            "<li><b>{}</b> ({}): <b>{}</b> is no slower and no less accurate ({}).{clear}</li>",
+            "<tr><td>{}</td>{}<td class=\"text\">{}</td>{}<td class=\"text\"><small>{clear}</small></td></tr>",
             escaped(&worse.setting.name),
-            cost(worse),
+            numbers(worse),
             escaped(&better.setting.name),
-            cost(better)
+            numbers(better)
         )
     };
     let lines: String = measurements.dominated.iter().map(line).collect();
-    format!("<section><h2>Settings not worth choosing here</h2><ul>{lines}</ul></section>")
+    format!(
+        "<section><h2>Settings not worth choosing here</h2><p class=\"quiet\">For each there is one that is no slower and no less \
+         accurate. Where times overlap it is a matter of accuracy alone.</p><div class=\"scroll\"><table><thead><tr><th>Instead \
+         of</th><th>Time</th><th>Error RMS</th><th class=\"text\">take</th><th>Time</th><th>Error \
+         RMS</th><th></th></tr></thead><tbody>{lines}</tbody></table></div></section>"
+    )
 }
 
 /// What could not be rendered.
@@ -83,7 +89,13 @@ pub(super) fn refused(measurements: &Measurements) -> String {
     let lines: String = measurements
         .refused
         .iter()
-        .map(|one| format!("<li><b>{}</b>: {}</li>", escaped(&one.setting.name), escaped(&one.reason)))
+        .map(|one| {
+            format!(
+                "<li><b>{}</b>: <span class=\"reason\">{}</span></li>",
+                escaped(&one.setting.name),
+                escaped(&one.reason)
+            )
+        })
         .collect();
     format!("<section><h2>Settings that cannot be rendered</h2><ul>{lines}</ul></section>")
 }
@@ -114,8 +126,8 @@ pub(super) fn budget(budget: &Budget, measurements: &Measurements) -> String {
             ),
         };
     }
-    if let Some(saved) = measurements.settings.iter().find(|one| one.setting.assignments.is_empty()) {
-        let errors = saved.errors;
+    if let Some(saved) = measurements.saved() {
+        let errors = measurements.settings[saved].errors;
         let _ = write!(
             rows,
             "<tr class=\"front\"><td>all together</td><td class=\"text\"><small>as saved, against the reference</small></td><td></td>\
