@@ -13,8 +13,8 @@ pub(crate) fn advice(measurements: &Measurements) -> String {
     };
     let mut sentences = vec![match front.unseen() {
         Some(index) => format!(
-            "Choose {}: of the settings that 99 % of the pixels do not show by half a code of an 8-bit picture it is the \
-             cheapest{}.",
+            "Choose {}: it is the cheapest setting whose error stays below half a code of an 8-bit picture (1/510) in 99 % \
+             of the pixels{}.",
             quoted(&front.settings[index]),
             front.costs(index)
         ),

@@ -149,7 +149,7 @@ fn setting(ladder: &Ladder, rung: usize, network: &Network, chain: &Chain) -> Op
         if unread || decl.parse(&value).is_ok_and(|value| value == own) {
             return None;
         }
-        names.push(format!("{} {}", knob.label, plain(&value).trim_end_matches(".0")));
+        names.push(format!("{} {}", knob.label, plain(&value)));
         assignments.push(Assignment { property: Address::new(owner, knob.property), value });
     }
     Some(Setting { name: names.join(", "), assignments })

@@ -121,9 +121,16 @@ fn name(assignments: &[Assignment]) -> String {
     assignments.iter().map(part).collect::<Vec<_>>().join(", ")
 }
 
-/// JSON without the quotes of a text.
+/// JSON without the quotes of a text and the ".0" of a whole number.
 pub(crate) fn plain(value: &Json) -> String {
-    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+    match value {
+        Json::String(text) => text.clone(),
+        Json::Number(number) => {
+            let text = number.to_string();
+            text.strip_suffix(".0").map(str::to_owned).unwrap_or(text)
+        }
+        other => other.to_string(),
+    }
 }
 
 impl Serialize for Setting {

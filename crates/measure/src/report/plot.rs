@@ -228,7 +228,7 @@ mod tests {
         assert!((axis.at(10.0) - 50.0).abs() < 1e-9);
         assert!(axis.at(1.0) > 0.0 && axis.at(100.0) < 100.0 && axis.at(0.0) == 0.0);
         assert_eq!(axis.ticks(), [1.0, 10.0, 100.0]);
-        assert!(Axis::over([3.0].into_iter(), 1.0, 0.0, 1.0).ticks().contains(&2.0));
+        assert!(Axis::over([3.0].into_iter(), 1.0, 0.0, 400.0).ticks().contains(&2.0));
     }
 
     #[test]

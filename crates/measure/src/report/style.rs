@@ -48,6 +48,7 @@ tr.front td:first-child{color:var(--best);font-weight:600}
 td small{color:var(--quiet)}
 ul{margin:0;padding-left:20px}li{margin:3px 0}
 .bar{display:inline-block;height:8px;border-radius:4px;background:var(--best);opacity:.75;min-width:2px;vertical-align:middle}
+.bar.aside{background:var(--other)}
 .reason{white-space:pre-line}
 .scale{display:flex;gap:8px;align-items:center;max-width:320px;color:var(--quiet);font-size:12px;margin:4px 0 14px}
 .scale i{flex:1;height:9px;border-radius:5px}

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::text::{escaped, milliseconds, number, percent};
+use crate::budget::GRADIENT;
 use crate::{Budget, Measured, Measurements};
 
 /// Every setting, by rising error.
@@ -108,10 +109,11 @@ pub(super) fn budget(budget: &Budget, measurements: &Measurements) -> String {
         let _ = match row.change {
             Some(change) => write!(
                 rows,
-                "<tr><td>{}</td><td class=\"text\"><small>{}</small></td><td class=\"text\"><span class=\"bar\" \
+                "<tr><td>{}</td><td class=\"text\"><small>{}</small></td><td class=\"text\"><span class=\"bar{}\" \
                  style=\"width:{:.0}px\"></span></td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
                 row.cause,
                 escaped(&row.switch),
+                if row.cause == GRADIENT { " aside" } else { "" },
                 120.0 * change.rmse / largest.max(f64::MIN_POSITIVE),
                 number(change.rmse),
                 number(change.p99),

@@ -1,0 +1,108 @@
+//! A measurement with its files.
+
+use std::fs;
+
+use rayloom_measure::{MOST_SETTINGS, MeasureError, Measurements, Plan, Standard, measure, silent, write_all};
+use rayloom_network::Network;
+use rayloom_reference::Cache;
+use serde_json::{Value as Json, json};
+
+use crate::network::{gpu, network};
+
+fn plan(vary: &[&str], ladders: &[&str]) -> Plan {
+    Plan {
+        origin: "shells.json".into(),
+        port: None,
+        vary: vary.iter().map(|text| text.parse().expect("well formed")).collect(),
+        ladders: ladders.iter().map(|name| (*name).to_owned()).collect(),
+        views: 2,
+        rounds: 2,
+        size: [24, 20],
+        standard: None,
+        budget: false,
+    }
+}
+
+fn measured(network: &Network, plan: &Plan) -> Result<Measurements, MeasureError> {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    measure(network, plan, gpu(), &Cache::new(folder.path()), &silent)
+}
+
+#[test]
+fn combinations_are_measured_and_written() {
+    let plan =
+        Plan { budget: true, ..plan(&["traversal.sampling_rate=0.5,4", "traversal.compositing=dvr,no_such"], &[]) };
+    let found = measured(&network(&[]), &plan).expect("measurements");
+    let names: Vec<&str> = found.settings.iter().map(|one| one.setting.name.as_str()).collect();
+    assert_eq!(names, ["as saved", "sampling_rate 0.5, compositing dvr", "sampling_rate 4, compositing dvr"]);
+    assert_eq!(found.refused.len(), 2);
+    assert!(found.refused[0].reason.contains("no_such"), "{}", found.refused[0].reason);
+    let [saved, coarse, fine] = &found.settings[..] else { panic!("three settings") };
+    assert!(fine.errors.rmse < saved.errors.rmse && saved.errors.rmse < coarse.errors.rmse);
+    assert!(fine.counts.samples > 3 * saved.counts.samples && saved.counts.rays == fine.counts.rays);
+    assert!(!found.settings.iter().any(|one| one.departs));
+    assert_eq!((found.reference, found.views.len(), found.front_samples.len()), ("exact", 2, 3));
+    let budget = found.budget.as_ref().expect("a budget");
+    let change = |cause| budget.rows.iter().find(|row| row.cause == cause).and_then(|row| row.change);
+    let quadrature = change("quadrature along the ray").expect("a change").rmse;
+    let round_off = change("round-off and tables").expect("a change").rmse;
+    assert!(round_off < 0.1 * quadrature, "{round_off} {quadrature}");
+
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let output = folder.path().join("new/folder");
+    let files = write_all(&output, &found).expect("files");
+    let text = |name: &str| fs::read_to_string(output.join(name)).expect("a file");
+    assert_eq!(files.len(), 3);
+    let csv = text("measurements.csv");
+    let lines: Vec<&str> = csv.lines().collect();
+    assert!(lines[0].starts_with("setting,traversal.compositing,traversal.sampling_rate,time_ms,"), "{}", lines[0]);
+    assert_eq!(lines[0].split(',').count(), lines[1].split(',').count());
+    assert!(lines[2].starts_with("\"sampling_rate 0.5, compositing dvr\",dvr,0.5,"), "{}", lines[2]);
+    let json: Json = serde_json::from_str(&text("measurements.json")).expect("JSON");
+    assert_eq!(json["settings"][2]["setting"]["set"]["traversal.sampling_rate"], json!(4));
+    assert!(json["settings"][0]["errors"]["rmse"].as_f64().is_some_and(|rmse| rmse > 0.0));
+    let page = text("report.html");
+    for part in ["Shells", "<svg", "data:image/png;base64,", "What the error is made of", "no_such", "Choose \u{201c}"]
+    {
+        assert!(page.contains(part), "{part}");
+    }
+    assert!(!page.contains("http"), "the page asks for something from elsewhere");
+}
+
+#[test]
+fn ladders_leave_out_the_own_setting_and_tell_departures_from_prices() {
+    let found = measured(&network(&[]), &plan(&[], &["sampling", "volume"])).expect("measurements");
+    let named = |name: &str| found.settings.iter().find(|one| one.setting.name == name);
+    assert!(named("sampling filtered").is_none() && named("volume auto").is_none());
+    let departs = |name: &str| named(name).map(|one| one.departs);
+    assert_eq!(departs("sampling nearest"), Some(true));
+    assert_eq!([departs("sampling trilinear"), departs("volume 8-bit")], [Some(false); 2]);
+    let departing = |i: &usize| found.settings[*i].departs;
+    assert!(!found.front_time.iter().any(departing) && !found.dominated.keys().any(departing));
+}
+
+#[test]
+fn networks_that_the_reference_cannot_draw_are_compared_with_the_finest() {
+    let mida = network(&[("traversal.compositing", json!("mida"))]);
+    let found = measured(&mida, &plan(&["traversal.sampling_rate=2,8"], &[])).expect("measurements");
+    assert_eq!(found.reference, "finest");
+    assert!(
+        found.reference_note.contains("the compositing `mida` has no counterpart there"),
+        "{}",
+        found.reference_note
+    );
+    assert!(found.settings[2].errors.rmse < found.settings[1].errors.rmse);
+    let exact = Plan { standard: Some(Standard::Exact), ..plan(&["traversal.sampling_rate=2"], &[]) };
+    assert!(matches!(measured(&mida, &exact), Err(MeasureError::Refusal(_))));
+}
+
+#[test]
+fn senseless_plans_are_refused() {
+    let message = |plan: &Plan| measured(&network(&[]), plan).map(|_| ()).expect_err("a refusal").to_string();
+    let many = (0..MOST_SETTINGS + 1).map(|i| i.to_string()).collect::<Vec<_>>().join(",");
+    let many = message(&plan(&[&format!("traversal.max_samples={many}")], &[]));
+    assert!(many.contains("257 settings") && many.contains("at most 256"), "{many}");
+    assert!(message(&plan(&[], &["steps"])).contains("no ladder `steps`: choose all or one of quality, rate,"));
+    let port = Plan { port: Some("view.entry".parse().expect("an address")), ..plan(&[], &[]) };
+    assert!(message(&port).contains("choose one with --port traversal.image"));
+}

@@ -1,0 +1,5 @@
+//! Measuring small networks on the device.
+
+mod end_to_end;
+mod network;
+mod translation;

@@ -1,0 +1,114 @@
+//! Networks as scenes of the reference.
+
+use rayloom_measure::{Errors, MeasureError, draw, silent};
+use rayloom_network::{Address, Evaluator, Network, Request};
+use rayloom_processors::{Data, Picture, Runner};
+use rayloom_reference::{Cache, Reference};
+use serde_json::{Value as Json, json};
+
+use crate::network::{gpu, network};
+
+const SIZE: [u32; 2] = [48, 40];
+
+/// What the device shows.
+fn shown(network: &Network) -> Picture {
+    let mut runner = Runner::new(gpu()).expect("a runner");
+    let mut evaluator = Evaluator::new();
+    let watch = vec![Address::new("traversal", "image")];
+    let report = evaluator.evaluate(network, &mut runner, &Request { watch, size: Some(SIZE), ..Request::default() });
+    assert!(report.is_complete(), "{report:?}");
+    match evaluator.output("traversal", "image") {
+        Some(Data::Image(image)) => image.read_back(&runner.context).expect("a picture"),
+        other => panic!("{other:?}"),
+    }
+}
+
+fn drawn(network: &Network, reference: Reference) -> Result<Picture, MeasureError> {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    Ok(draw(network, None, reference, SIZE, gpu(), &Cache::new(folder.path()), &silent)?.0)
+}
+
+/// The means of the project's agreement tests (0.2/255), of the largest channel error of each pixel.
+const AGREEMENT: f64 = 0.2 / 255.0;
+
+#[test]
+fn the_same_samples_agree_with_the_device() {
+    let cases: &[&[(&str, Json)]] = &[
+        &[],
+        &[
+            ("traversal.shading", json!("blinn_phong")),
+            ("traversal.shading.specular", json!(0.7)),
+            ("traversal.gradient", json!("central4")),
+        ],
+        &[
+            ("traversal.shading", json!("diffuse")),
+            ("traversal.light", json!({"space": "world", "direction": [1, -1, 0.5]})),
+        ],
+        &[
+            ("traversal.compositing", json!("mip")),
+            ("proxy.clip_x", json!([3, 17])),
+            ("traversal.sampling", json!("catmull_rom")),
+        ],
+        &[("traversal.compositing", json!("sum")), ("traversal.compositing.gain", json!(0.5))],
+        &[
+            ("traversal.compositing", json!("isosurface")),
+            ("traversal.compositing.isovalue", json!(0.35)),
+            ("traversal.shading", json!("blinn_phong")),
+        ],
+        &[
+            ("clip.enabled", json!(true)),
+            ("clip.normal", json!([0, 0, 1])),
+            ("clip.distance", json!(4)),
+            ("traversal.reference_length", json!(0)),
+        ],
+    ];
+    for case in cases {
+        let network = network(case);
+        let (found, expected) =
+            (shown(&network), drawn(&network, Reference::SameSamples).unwrap_or_else(|e| panic!("{case:?}: {e}")));
+        let visible = expected.pixels.iter().filter(|pixel| pixel[3] > 0.05).count();
+        assert!(visible > expected.pixels.len() / 20, "{case:?}: only {visible} pixels show something");
+        let (errors, _) = Errors::of(&found.pixels, &expected.pixels).expect("pictures of one size");
+        assert!(errors.mean <= AGREEMENT, "{case:?}: {errors:?}");
+    }
+}
+
+#[test]
+fn finer_samples_come_closer_to_the_exact_picture() {
+    let at = |rate: f64| {
+        let network = network(&[("traversal.sampling_rate", json!(rate)), ("traversal.termination_error", json!(0))]);
+        let exact = drawn(&network, Reference::Exact).expect("a picture");
+        Errors::of(&shown(&network).pixels, &exact.pixels).expect("pictures of one size").0.rmse
+    };
+    let (coarse, fine) = (at(1.0), at(8.0));
+    assert!(fine < coarse / 20.0 && fine > 0.0, "{coarse} {fine}");
+}
+
+#[test]
+fn what_the_reference_cannot_draw_is_refused_with_a_reason() {
+    let refusal = |set: &[(&str, Json)], reference| match drawn(&network(set), reference) {
+        Err(error @ MeasureError::Refusal(_)) => error.to_string(),
+        other => panic!("{set:?}: {other:?}"),
+    };
+    let lit = ("traversal.shading", json!("blinn_phong"));
+    let cases: &[(&[(&str, Json)], &str)] = &[
+        (&[("traversal.compositing", json!("mida"))], "the compositing `mida` has no counterpart there"),
+        (&[("traversal.shading", json!("toon"))], "the shading `toon` has no counterpart there"),
+        (&[lit.clone(), ("traversal.gradient", json!("sobel"))], "the gradient `sobel` has no counterpart there"),
+        (&[lit, ("traversal.compositing", json!("mip"))], "it does not light the extremes of rays"),
+        (
+            &[("traversal.classification", json!("transfer_function_2d"))],
+            "no transfer functions over value and gradient",
+        ),
+        (&[("traversal.classification", json!("labels"))], "it knows no labels"),
+        (&[("clip.enabled", json!(true))], "the proxy geometry is not a box along the voxel axes"),
+        (&[("traversal.sampling.text", json!("fn x() {}"))], "the slot `sampling` holds a text of your own"),
+    ];
+    for (set, expected) in cases {
+        let found = refusal(set, Reference::Exact);
+        assert!(found.starts_with("The float64 reference cannot draw this: ") && found.contains(expected), "{found}");
+    }
+    let segments = [("traversal.classification", json!("preintegrated_full"))];
+    assert!(refusal(&segments, Reference::SameSamples).contains("looks at segments, not samples"));
+    assert!(drawn(&network(&segments), Reference::Exact).is_ok());
+}
