@@ -3,5 +3,6 @@
 mod documents;
 mod failures;
 mod listings;
+mod measuring;
 mod pictures;
 mod program;
