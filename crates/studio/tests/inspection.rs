@@ -96,5 +96,6 @@ fn a_pinned_inspector_reads_the_pixel_under_the_pointer() {
     let heading = harness.query_all_by_label_contains("Point at a pixel").last().expect("a hint").rect();
     harness.hover_at(heading.left_top() + egui::vec2(170.0, -100.0));
     window::wait_for(&mut harness, "depth ");
+    harness.run_steps(3);
     window::keep_picture(&mut harness, "inspectors");
 }

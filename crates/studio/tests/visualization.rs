@@ -77,3 +77,33 @@ fn one_key_switches_back_unless_the_file_is_locked() {
         assert_eq!(harness.state().session.mode, expected);
     }
 }
+
+#[test]
+fn keys_and_double_clicks_move_the_camera_of_the_canvas_under_the_pointer() {
+    use rayloom_network::{Projection, Value};
+    let mut harness = window::studio(opened("networks/brain.json"));
+    window::wait_until(&mut harness, |studio| studio.session.engine.results.canvases.contains_key("canvas"));
+    let camera = |studio: &rayloom_studio::Studio| match studio.session.network().value("view", "camera") {
+        Some(Value::Camera(camera)) => camera,
+        other => panic!("no camera but {other:?}"),
+    };
+    let middle = harness.get_by_label("canvas canvas").rect().center();
+    harness.hover_at(middle + egui::vec2(60.0, 40.0));
+    harness.step();
+    let before = camera(harness.state());
+    harness.key_press(egui::Key::O);
+    harness.run_steps(2);
+    assert!(matches!(camera(harness.state()).projection, Projection::Orthographic { .. }));
+    harness.state_mut().session.document.undo();
+    assert_eq!(camera(harness.state()), before);
+    for pressed in [true, false, true, false] {
+        let pos = middle + egui::vec2(60.0, 40.0);
+        let (button, modifiers) = (egui::PointerButton::Primary, egui::Modifiers::NONE);
+        harness.event(egui::Event::PointerButton { pos, button, pressed, modifiers });
+        harness.step();
+    }
+    window::wait_until(&mut harness, |studio| camera(studio).focus != before.focus);
+    let after = camera(harness.state());
+    assert!((after.distance() - before.distance()).abs() < 1e-6, "centring neither turns nor approaches");
+    assert_eq!(after.up, before.up);
+}

@@ -38,7 +38,7 @@ pub fn project(path: &str) -> PathBuf {
 }
 
 fn builder<T: eframe::App>() -> egui_kittest::HarnessBuilder<T> {
-    Harness::builder().with_size([1280.0, 800.0]).wgpu_setup(rayloom_studio::wgpu_setup())
+    Harness::builder().with_size([1280.0, 800.0]).with_step_dt(1.0 / 60.0).wgpu_setup(rayloom_studio::wgpu_setup())
 }
 
 /// A piece of the window with a network open.
@@ -79,7 +79,7 @@ pub fn flagship() -> Options {
 pub fn wait_until<T>(harness: &mut Harness<'_, T>, holds: impl Fn(&T) -> bool) {
     let start = Instant::now();
     while !holds(harness.state()) {
-        assert!(start.elapsed() < 4 * PATIENCE, "waited for too long");
+        assert!(start.elapsed() < PATIENCE, "waited for too long");
         harness.step();
         std::thread::sleep(Duration::from_millis(10));
     }

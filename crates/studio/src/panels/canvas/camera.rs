@@ -42,7 +42,7 @@ impl Held {
             keys(ui, session, image, &mut camera);
         }
         if response.double_clicked()
-            && let Some(pixel) = response.interact_pointer_pos().and_then(|pointer| pixel_at(shown, image, pointer))
+            && let Some(pixel) = response.hover_pos().and_then(|pointer| pixel_at(shown, image, pointer))
         {
             self.centring = Some((Arc::new(pixel), before));
         }
