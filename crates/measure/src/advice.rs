@@ -49,9 +49,28 @@ impl<'a> Front<'a> {
         (!order.is_empty()).then_some(Self { settings: &measurements.settings, order, points, timed })
     }
 
-    /// The cheapest whose errors are not seen.
+    /// The cheapest whose errors are not seen; the network as saved rather than one whose times overlap with its.
     fn unseen(&self) -> Option<usize> {
-        self.order.iter().copied().find(|&index| self.settings[index].errors.p99 <= VISIBLE_ERROR)
+        let unseen = |index: &usize| self.settings[*index].errors.p99 <= VISIBLE_ERROR;
+        let cheapest = self.order.iter().copied().find(unseen)?;
+        let saved = self.settings.iter().position(|one| one.setting.assignments.is_empty());
+        Some(saved.filter(unseen).filter(|&saved| !self.clearly_cheaper(cheapest, saved)).unwrap_or(cheapest))
+    }
+
+    /// Whether one setting costs less than another beyond the noise of timings.
+    fn clearly_cheaper(&self, one: usize, other: usize) -> bool {
+        match (self.timed, self.settings[one].time_ms, self.settings[other].time_ms) {
+            (true, Some(one), Some(other)) => one.high < other.low,
+            _ => self.points[one].cost < self.points[other].cost,
+        }
+    }
+
+    /// Whether one setting beats another in a way that measuring again would confirm.
+    fn clearly_beats(&self, one: usize, other: usize) -> bool {
+        /// Errors within this of each other count as the same.
+        const SAME: f64 = 0.95;
+        let more_accurate = self.points[one].error < SAME * self.points[other].error;
+        self.points[one].dominates(&self.points[other]) && (more_accurate || self.clearly_cheaper(one, other))
     }
 
     fn most_accurate(&self) -> usize {
@@ -76,19 +95,14 @@ fn saved(measurements: &Measurements, front: &Front<'_>) -> Option<String> {
     let seen =
         if front.settings[index].errors.p99 <= VISIBLE_ERROR { "errors that are not seen" } else { "visible errors" };
     let found = format!("As saved it has {seen} ({} RMS)", number(front.settings[index].errors.rmse));
-    let by = front
-        .order
-        .iter()
-        .rev()
-        .copied()
-        .find(|&other| front.points[other].dominates(&front.points[index]) && other != index);
+    let by = front.order.iter().rev().copied().find(|&other| front.clearly_beats(other, index));
     Some(match by {
         Some(by) => format!(
-            "{found}{}, and {} is at once cheaper and no less accurate.",
+            "{found}{}, and {} is no dearer and no less accurate.",
             front.costs(index),
             quoted(&front.settings[by])
         ),
-        None => format!("{found}{}; no setting is better in both.", front.costs(index)),
+        None => format!("{found}{}; no setting is clearly better in both.", front.costs(index)),
     })
 }
 
@@ -102,4 +116,59 @@ fn cause(measurements: &Measurements) -> Option<String> {
 
 fn quoted(measured: &Measured) -> String {
     format!("\u{201c}{}\u{201d}", measured.setting.name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Counts, Errors, Setting, Summary, setting::combinations};
+
+    /// A setting with this error and times from `low` to `high`; the first one stands for the network as saved.
+    fn measured(index: usize, error: f64, [low, high]: [f64; 2]) -> Measured {
+        let setting = match index {
+            0 => Setting::saved(),
+            _ => combinations(&[format!("a.x={index}").parse().expect("well formed")]).remove(0),
+        };
+        let errors =
+            Errors { max: error, mean: error, rmse: error, p99: error, visible: 0.1, transmittance: error, worst: 0 };
+        let time_ms = Some(Summary { median: 0.5 * (low + high), low, high });
+        Measured { setting, time_ms, counts: Counts::default(), errors, departs: false, notes: vec![], map: vec![] }
+    }
+
+    fn advice_on(settings: &[(f64, [f64; 2])]) -> String {
+        let settings = settings.iter().enumerate().map(|(i, &(error, time))| measured(i, error, time)).collect();
+        let mut measurements = Measurements {
+            network: String::new(),
+            origin: String::new(),
+            image: String::new(),
+            adapter: String::new(),
+            rayloom: String::new(),
+            size: [1, 1],
+            views: vec![],
+            rounds: 1,
+            reference: "exact",
+            reference_note: String::new(),
+            settings,
+            front_time: vec![],
+            front_samples: vec![],
+            dominated: Default::default(),
+            refused: vec![],
+            budget: None,
+            advice: String::new(),
+            picture: vec![],
+        };
+        measurements.compare();
+        advice(&measurements)
+    }
+
+    #[test]
+    fn the_cheapest_unseen_error_is_chosen_and_noise_is_no_reason() {
+        let cheaper = advice_on(&[(1e-4, [10.0, 12.0]), (1e-3, [4.0, 5.0]), (0.1, [1.0, 2.0])]);
+        assert!(cheaper.starts_with("Choose \u{201c}x 1\u{201d}") && cheaper.contains("4.50 ms"), "{cheaper}");
+        let noise = advice_on(&[(1e-3, [4.0, 6.0]), (1e-3, [3.0, 5.0])]);
+        assert!(noise.starts_with("Choose \u{201c}as saved\u{201d}"), "{noise}");
+        let visible = advice_on(&[(0.02, [4.0, 6.0]), (0.01, [2.0, 3.0])]);
+        assert!(visible.starts_with("No setting keeps the error"), "{visible}");
+        assert!(visible.ends_with("\u{201c}x 1\u{201d} is no dearer and no less accurate."), "{visible}");
+    }
 }
