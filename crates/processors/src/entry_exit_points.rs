@@ -64,14 +64,21 @@ pub fn process(context: &mut Context, job: &Job<'_, Data>) -> Result<Outputs<Dat
 
 fn format(id: &str, gpu: &Gpu) -> Result<TextureFormat, ProcessError> {
     match id {
-        "16-bit" if !gpu.features.norm16 => Err(ProcessError::new(
-            "this graphics device has no 16-bit integer textures; choose the format 32-bit or half",
+        "16-bit" if !draws_unorm16(gpu) => Err(ProcessError::new(
+            "this graphics device cannot draw into 16-bit integer textures; choose the format 32-bit or half",
         )),
         "16-bit" => Ok(TextureFormat::Rgba16Unorm),
         "half" => Ok(TextureFormat::Rgba16Float),
         "8-bit" => Ok(TextureFormat::Rgba8Unorm),
         _ => Ok(TextureFormat::Rgba32Float),
     }
+}
+
+/// Some devices that have 16-bit integer textures cannot draw into them, and only an attempt tells.
+fn draws_unorm16(gpu: &Gpu) -> bool {
+    let attempt =
+        || gpu.texture_2d("attempt", [1, 1], TextureFormat::Rgba16Unorm, wgpu::TextureUsages::RENDER_ATTACHMENT);
+    gpu.features.norm16 && attempt().is_ok()
 }
 
 /// The uniform of the shader.

@@ -7,6 +7,7 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 use egui_tiles::{Tree, UiResponse};
 use rayloom_processors::registry;
 
+use crate::device::Complaints;
 use crate::display::{Display, gpu_of};
 use crate::engine::Engine;
 use crate::panels::{self, Pane, Panels};
@@ -37,6 +38,7 @@ pub struct Studio {
     pub session: Session,
     panels: Panels,
     tiles: Tree<Pane>,
+    complaints: Complaints,
 }
 
 impl Studio {
@@ -50,13 +52,14 @@ impl Studio {
     ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
         let renderer = creation.wgpu_render_state.as_ref().ok_or("the window has no graphics device")?;
         let gpu = gpu_of(renderer);
+        let complaints = Complaints::of(&gpu.device);
         let context = creation.egui_ctx.clone();
         let engine = Engine::start(gpu.clone(), move || context.request_repaint())?;
         let display = Display::new(gpu, renderer.clone());
         theme::apply(&creation.egui_ctx);
         let mut session = Session::new(Arc::new(registry()), engine, display);
         session.mode = options.mode;
-        let mut studio = Self { session, panels: Panels::default(), tiles: panels::default_layout() };
+        let mut studio = Self { session, panels: Panels::default(), tiles: panels::default_layout(), complaints };
         if let Some(path) = &options.network {
             studio.open(path);
         }
@@ -237,6 +240,9 @@ impl eframe::App for Studio {
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         let context = ui.ctx().clone();
         self.session.engine.listen();
+        for complaint in self.complaints.take() {
+            self.session.tell(Severity::Error, format!("the graphics device complains: {complaint}"));
+        }
         let was_interacting = std::mem::take(&mut self.session.interacting);
         self.session.watched.clear();
         self.session.canvas_size = None;

@@ -6,6 +6,7 @@
 
 mod app;
 mod catalog;
+mod device;
 mod display;
 mod document;
 mod engine;
@@ -18,6 +19,7 @@ mod visualization;
 mod wiring;
 
 pub use app::{Options, Studio};
+pub use device::setup as wgpu_setup;
 pub use display::{Display, Layer, Look};
 pub use document::Document;
 pub use engine::{Engine, Results};
@@ -25,10 +27,6 @@ pub use inspect::{ChannelStatistics, Inspection, Pixel, Reading, Statistics, hov
 pub use panels::Pane;
 pub use session::{Message, Mode, Session, Severity};
 pub use visualization::{Application, Exposed, Group, Preset};
-
-use std::sync::Arc;
-
-use rayloom_gpu::{Gpu, Hidden};
 
 /// Opens the window and runs until it is closed.
 ///
@@ -38,15 +36,8 @@ pub fn run(options: Options) -> Result<(), eframe::Error> {
     let native = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default().with_inner_size([1280.0, 800.0]).with_min_inner_size([640.0, 400.0]),
         renderer: eframe::Renderer::Wgpu,
-        wgpu_options: eframe::egui_wgpu::WgpuConfiguration { wgpu_setup: wgpu_setup(), ..Default::default() },
+        wgpu_options: device::configuration(),
         ..Default::default()
     };
     eframe::run_native("Rayloom", native, Box::new(move |creation| Ok(Box::new(Studio::new(creation, &options)?))))
-}
-
-/// The device that the window draws on: with everything that the processors ask for.
-pub fn wgpu_setup() -> eframe::egui_wgpu::WgpuSetup {
-    let mut setup = eframe::egui_wgpu::WgpuSetupCreateNew::without_display_handle();
-    setup.device_descriptor = Arc::new(|adapter| Gpu::descriptor(adapter, Hidden::default()));
-    eframe::egui_wgpu::WgpuSetup::CreateNew(setup)
 }

@@ -1,0 +1,61 @@
+//! The graphics device that the window and the evaluation share.
+
+use std::sync::{Arc, Mutex};
+
+use eframe::egui_wgpu::{SurfaceErrorAction, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
+use rayloom_gpu::wgpu::{CurrentSurfaceTexture, Device};
+use rayloom_gpu::{Gpu, Hidden};
+
+/// How the window sets up its device: with everything that the processors ask for.
+pub fn setup() -> WgpuSetup {
+    let mut setup = WgpuSetupCreateNew::without_display_handle();
+    setup.device_descriptor = Arc::new(|adapter| Gpu::descriptor(adapter, Hidden::default()));
+    WgpuSetup::CreateNew(setup)
+}
+
+/// How the window draws on it.
+///
+/// A surface can only be configured (at every new size) while the device is idle; when the evaluation submits work at that very
+/// moment the attempt fails, the frame is dropped, and the next one tries again.
+pub fn configuration() -> WgpuConfiguration {
+    let default = WgpuConfiguration::default();
+    let others = default.on_surface_status.clone();
+    WgpuConfiguration {
+        wgpu_setup: setup(),
+        on_surface_status: Arc::new(move |status| match status {
+            CurrentSurfaceTexture::Validation => SurfaceErrorAction::Reconfigure,
+            other => others(other),
+        }),
+        ..default
+    }
+}
+
+/// What the device complained about outside of any error scope, for the user to read.
+#[derive(Clone, Default)]
+pub struct Complaints(Arc<Mutex<Vec<String>>>);
+
+impl Complaints {
+    /// Collects what a device complains about from now on; by default the program would end.
+    pub fn of(device: &Device) -> Self {
+        let complaints = Self::default();
+        let collected = complaints.clone();
+        device.on_uncaptured_error(Arc::new(move |error| collected.add(&error.to_string())));
+        complaints
+    }
+
+    fn add(&self, message: &str) {
+        // A surface that could not be configured is tried again.
+        if !message.contains("Surface::") {
+            self.lock().push(message.to_owned());
+        }
+    }
+
+    /// What came since the last call.
+    pub fn take(&self) -> Vec<String> {
+        std::mem::take(&mut *self.lock())
+    }
+
+    fn lock(&self) -> std::sync::MutexGuard<'_, Vec<String>> {
+        self.0.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+    }
+}
