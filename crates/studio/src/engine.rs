@@ -38,6 +38,20 @@ pub struct Results {
     pub canvases: BTreeMap<String, Arc<Image>>,
 }
 
+impl Results {
+    /// Where something failed, the canvases go on showing the last good picture; the failure is told beside it.
+    fn keep_pictures(&mut self, previous: Results) {
+        if self.report.failed.is_empty() {
+            return;
+        }
+        for (id, image) in previous.canvases {
+            if self.report.not_ready.contains_key(&id) {
+                self.canvases.entry(id).or_insert(image);
+            }
+        }
+    }
+}
+
 /// The evaluation thread as the window sees it.
 pub struct Engine {
     orders: Option<Sender<Order>>,
@@ -111,7 +125,8 @@ impl Engine {
                 }
                 News::Results(results) => {
                     self.progress.clear();
-                    self.results = *results;
+                    let previous = std::mem::replace(&mut self.results, *results);
+                    self.results.keep_pictures(previous);
                 }
             }
         }

@@ -10,7 +10,7 @@ use egui_kittest::kittest::Queryable;
 use rayloom_studio::{Options, Session, Studio};
 
 /// Longest time that anything may take on a slow device.
-const PATIENCE: Duration = Duration::from_secs(20);
+const PATIENCE: Duration = Duration::from_secs(120);
 
 /// A piece of the window: one function that shows something of a session.
 pub struct Piece<F> {
