@@ -30,7 +30,7 @@ fn measured(network: &Network, plan: &Plan) -> Result<Measurements, MeasureError
 
 /// Number of fields of a CSV line: names of settings hold commas, and stand in quotes then.
 fn fields(line: &str) -> usize {
-    let outside = |(quoted, count), c| match c {
+    let outside = |(quoted, count): (bool, usize), c: char| match c {
         '"' => (!quoted, count),
         ',' if !quoted => (quoted, count + 1),
         _ => (quoted, count),
