@@ -43,8 +43,12 @@ impl std::fmt::Display for Summary {
 /// When it fails or the device cannot measure time.
 pub fn time_again(bench: &mut Workbench, processor: &str, outport: &str, size: [u32; 2]) -> f64 {
     bench.evaluator.invalidate(processor, Level::Result, "measured again");
-    let request =
-        Request { watch: vec![(processor, outport).into()], sinks: Sinks::Only(Vec::new()), size: Some(size) };
+    let request = Request {
+        watch: vec![(processor, outport).into()],
+        sinks: Sinks::Only(Vec::new()),
+        size: Some(size),
+        ..Request::default()
+    };
     let report = bench.evaluate(&request);
     assert!(report.is_complete(), "{report:?}");
     let run = report.runs.iter().find(|run| run.processor == processor);
@@ -55,8 +59,12 @@ pub fn time_again(bench: &mut Workbench, processor: &str, outport: &str, size: [
 pub fn samples(bench: &mut Workbench, size: [u32; 2]) -> u64 {
     bench.runner.count_samples(true);
     bench.evaluator.invalidate("traversal", Level::Shader, "counted");
-    let request =
-        Request { watch: vec![("traversal", "image").into()], sinks: Sinks::Only(Vec::new()), size: Some(size) };
+    let request = Request {
+        watch: vec![("traversal", "image").into()],
+        sinks: Sinks::Only(Vec::new()),
+        size: Some(size),
+        ..Request::default()
+    };
     let report = bench.evaluate(&request);
     bench.runner.count_samples(false);
     bench.evaluator.invalidate("traversal", Level::Shader, "no longer counted");

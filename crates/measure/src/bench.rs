@@ -97,7 +97,7 @@ impl Bench {
 
     /// Brings these outports up to date.
     fn bring(&mut self, watch: Vec<Address>) -> Result<Report, MeasureError> {
-        let request = Request { sinks: Sinks::Only(Vec::new()), watch, size: Some(self.size) };
+        let request = Request { sinks: Sinks::Only(Vec::new()), watch, size: Some(self.size), ..Request::default() };
         let report = self.evaluator.evaluate(&self.network, &mut self.runner, &request);
         self.runner.tidy(|_| true);
         match report.is_complete() {

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::names::Address;
 use crate::network::{Network, Processor};
+use crate::port::PortType;
 use crate::report::{Request, Sinks};
 
 /// Render size where neither a sink nor the request gives one.
@@ -27,7 +28,7 @@ impl Plan {
         plan.collect(network, &sinks, &watch);
         plan.order =
             network.order().into_iter().filter(|id| plan.wanted.contains_key(*id)).map(str::to_owned).collect();
-        plan.spread_sizes(network, &sinks, &watch, request.size);
+        plan.spread_sizes(network, &sinks, request);
         plan
     }
 
@@ -52,21 +53,43 @@ impl Plan {
         }
     }
 
-    /// Sizes start at the sinks and travel upstream, against the order.
-    fn spread_sizes(&mut self, network: &Network, sinks: &[&Processor], watch: &[&Address], fixed: Option<[u32; 2]>) {
+    /// Sizes start at the sinks and travel upstream, against the order. Images that meet in a processor must be of one size,
+    /// so what makes one of them larger makes all of them larger. What is only watched is as large as the largest sink.
+    fn spread_sizes(&mut self, network: &Network, sinks: &[&Processor], request: &Request) {
         for sink in sinks {
-            if let Some(size) = fixed.or_else(|| own_size(sink)) {
+            if let Some(size) = request.sizes.get(sink.id()).copied().or(request.size).or_else(|| own_size(sink)) {
                 self.enlarge(sink.id(), size);
             }
         }
         let largest = self.size.values().copied().reduce(max);
-        let default = fixed.or(largest).unwrap_or(FALLBACK_SIZE);
-        for id in self.order.iter().rev() {
-            let consumers = network.outputs(id).filter_map(|connection| self.size.get(&connection.to.processor));
-            let watched = watch.iter().any(|address| address.processor == *id).then_some(&default);
-            let asked = consumers.chain(watched).chain(self.size.get(id)).copied().reduce(max);
-            self.size.insert(id.clone(), asked.unwrap_or(default));
+        let default = request.size.or(largest).unwrap_or(FALLBACK_SIZE);
+        loop {
+            for id in self.order.iter().rev() {
+                let consumers = network.outputs(id).filter_map(|connection| self.size.get(&connection.to.processor));
+                let asked = consumers.chain(self.size.get(id)).copied().reduce(max);
+                self.size.insert(id.clone(), asked.unwrap_or(default));
+            }
+            let meeting: Vec<_> =
+                self.order.iter().filter_map(|id| Some((id.clone(), self.meeting(network, id)?))).collect();
+            if meeting.is_empty() {
+                return;
+            }
+            for (id, size) in meeting {
+                self.enlarge(&id, size);
+            }
         }
+    }
+
+    /// The size of the largest image that meets others in a processor, if it is larger than the processor's own.
+    fn meeting(&self, network: &Network, id: &str) -> Option<[u32; 2]> {
+        let images: BTreeSet<&str> = network
+            .inputs(id)
+            .filter(|connection| matches!(port_type(network, &connection.from), Some(PortType::Image(_))))
+            .map(|connection| connection.from.processor.as_str())
+            .collect();
+        let largest = images.iter().filter_map(|source| self.size.get(*source)).copied().reduce(max)?;
+        let own = self.size.get(id).copied()?;
+        (images.len() > 1 && max(own, largest) != own).then_some(largest)
     }
 
     fn enlarge(&mut self, id: &str, size: [u32; 2]) {
@@ -88,8 +111,13 @@ fn is_selected(processor: &Processor, sinks: &Sinks) -> bool {
 }
 
 fn is_outport(network: &Network, address: &Address) -> bool {
-    let declaration = network.processor(&address.processor).and_then(Processor::declaration);
-    declaration.is_some_and(|declaration| declaration.outport(&address.item).is_some())
+    port_type(network, address).is_some()
+}
+
+/// The type of an outport; `None` if there is no such.
+fn port_type(network: &Network, address: &Address) -> Option<PortType> {
+    let declaration = network.processor(&address.processor).and_then(Processor::declaration)?;
+    declaration.outport(&address.item).map(|outport| outport.port_type)
 }
 
 /// The property `size` of a sink. Float-to-int casts saturate, and the property's range keeps it sensible.

@@ -11,7 +11,7 @@ use crate::names::Address;
 use crate::property::Level;
 
 /// What to evaluate.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Request {
     /// The sinks to bring up to date.
     pub sinks: Sinks,
@@ -19,6 +19,8 @@ pub struct Request {
     pub watch: Vec<Address>,
     /// Render size for every sink, in place of its own.
     pub size: Option<[u32; 2]>,
+    /// Render sizes of single sinks, in place of all others.
+    pub sizes: BTreeMap<String, [u32; 2]>,
 }
 
 /// A selection of sinks.

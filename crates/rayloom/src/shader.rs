@@ -27,7 +27,7 @@ pub fn run(file: &Path, processor: &str, settings: &[Setting]) -> Result<String,
     let mut runner = Runner::new(Gpu::new(&GpuOptions::default())?)?;
     let line = Line::new("rendering");
     runner.context.progress = line.listener();
-    let request = Request { sinks: Sinks::Only(Vec::new()), watch, size: Some(SIZE) };
+    let request = Request { sinks: Sinks::Only(Vec::new()), watch, size: Some(SIZE), ..Request::default() };
     let report = Evaluator::new().evaluate(&network, &mut runner, &request);
     drop(line);
     if !report.is_complete() {

@@ -53,7 +53,7 @@ impl Target {
         let outport = outport(network, port)?;
         let sinks = Sinks::Only(vec![port.processor.clone()]);
         let size = size.or_else(|| largest_canvas(network, &port.processor));
-        Ok(Self { request: Request { sinks, watch: vec![outport.clone()], size }, outport })
+        Ok(Self { request: Request { sinks, watch: vec![outport.clone()], size, ..Request::default() }, outport })
     }
 }
 

@@ -245,7 +245,7 @@ impl eframe::App for Studio {
         }
         let was_interacting = std::mem::take(&mut self.session.interacting);
         self.session.watched.clear();
-        self.session.canvas_size = None;
+        self.session.shown.clear();
         self.shortcuts(&context);
         if self.session.mode == Mode::Development {
             egui::Panel::top("menu").show(ui, |ui| self.menu_bar(ui));

@@ -96,13 +96,7 @@ impl Engine {
 
     /// Asks for an evaluation unless it is what was asked for last. `revision` tells states of the network apart.
     pub fn order(&mut self, revision: u64, network: &Network, request: Request) {
-        let same = |(last, wanted): &(u64, Request)| {
-            *last == revision
-                && wanted.size == request.size
-                && wanted.watch == request.watch
-                && wanted.sinks == request.sinks
-        };
-        if self.last.as_ref().is_some_and(same) {
+        if self.last.as_ref().is_some_and(|(last, wanted)| *last == revision && *wanted == request) {
             return;
         }
         self.ordered += 1;

@@ -1,11 +1,11 @@
 //! What all panels share: the document, its results, the selection, messages.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use rayloom_network::{Address, EditError, Network, Registry, Request, Sinks, Value};
+use rayloom_network::{Address, EditError, Network, Processor, Registry, Request, Sinks, Value};
 
 use crate::display::Display;
 use crate::document::Document;
@@ -43,6 +43,9 @@ pub struct Message {
     pub when: Instant,
 }
 
+/// Id of the type of the processors that show a picture.
+pub const CANVAS: &str = "canvas";
+
 /// Messages kept at most.
 const MESSAGES: usize = 200;
 
@@ -70,8 +73,8 @@ pub struct Session {
     pub watched: BTreeSet<Address>,
     /// Set by a panel in a frame in which the user drags something in a picture: pictures get smaller for the while.
     pub interacting: bool,
-    /// The largest canvas in this frame, pixels.
-    pub canvas_size: Option<[u32; 2]>,
+    /// The canvases shown in this frame, with their sizes in pixels. Filled anew every frame.
+    pub shown: BTreeMap<String, [u32; 2]>,
 }
 
 impl Session {
@@ -89,7 +92,7 @@ impl Session {
             mode: Mode::default(),
             watched: BTreeSet::new(),
             interacting: false,
-            canvas_size: None,
+            shown: BTreeMap::new(),
         }
     }
 
@@ -160,12 +163,18 @@ impl Session {
         }
     }
 
-    /// What this frame wants evaluated.
+    /// What this frame wants evaluated: the canvases in sight, each at its own size, and every sink that is no canvas. While
+    /// no canvas is in sight all of them count, so that mistakes are still told.
     pub fn request(&self) -> Request {
-        let size = self.canvas_size.map(|size| match self.interacting {
-            true => size.map(|pixels| (pixels / 2).max(1)),
-            false => size,
-        });
-        Request { sinks: Sinks::All, watch: self.watched.iter().cloned().collect(), size }
+        let divisor = if self.interacting { 2 } else { 1 };
+        let sizes = self.shown.iter().map(|(id, size)| (id.clone(), size.map(|pixels| pixels.div_ceil(divisor))));
+        let wanted = |sink: &Processor| sink.type_id() != CANVAS || self.shown.contains_key(sink.id());
+        let sinks = match self.shown.is_empty() {
+            true => Sinks::All,
+            false => {
+                Sinks::Only(self.network().processors().filter(|p| wanted(p)).map(|p| p.id().to_owned()).collect())
+            }
+        };
+        Request { sinks, watch: self.watched.iter().cloned().collect(), size: None, sizes: sizes.collect() }
     }
 }

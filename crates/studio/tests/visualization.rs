@@ -107,3 +107,17 @@ fn keys_and_double_clicks_move_the_camera_of_the_canvas_under_the_pointer() {
     assert!((after.distance() - before.distance()).abs() < 1e-6, "centring neither turns nor approaches");
     assert_eq!(after.up, before.up);
 }
+
+#[test]
+fn every_canvas_gets_a_picture_of_its_own_size_and_only_those_in_sight_are_rendered() {
+    let sizes = [("canvas_axial", [120, 90]), ("canvas", [64, 80])];
+    let mut harness = window::harness("networks/apps/mri_viewer.json", move |_, session| {
+        session.shown = sizes.map(|(id, size)| (id.to_owned(), size)).into();
+    });
+    window::wait_until(&mut harness, |piece| piece.studio.session.engine.results.canvases.len() == 2);
+    let results = &harness.state().studio.session.engine.results;
+    for (id, size) in sizes {
+        assert_eq!(results.canvases[id].size(), size, "{id}");
+    }
+    assert!(!results.runs.contains_key("coronal"), "nobody sees the coronal slice");
+}

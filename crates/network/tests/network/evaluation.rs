@@ -195,6 +195,42 @@ fn the_render_size_travels_upstream_and_the_largest_wins() {
 }
 
 #[test]
+fn every_sink_may_have_a_size_of_its_own() {
+    let mut network = pipeline();
+    network.add("canvas", "other").unwrap();
+    network.add("preview", "side").unwrap();
+    network.connect(("data", "volume"), ("side", "volume")).unwrap();
+    network.connect(("side", "image"), ("other", "image")).unwrap();
+    let mut bench = Bench::new(network);
+    let sizes = |canvas, other| Request {
+        size: Some([300, 300]),
+        sizes: [("canvas".to_owned(), canvas), ("other".to_owned(), other)].into(),
+        ..Request::default()
+    };
+    bench.with(&sizes([200, 100], [30, 40]));
+    assert_eq!((bench.backend.sizes["view"], bench.backend.sizes["side"]), ([200, 100], [30, 40]));
+    // Only what feeds the canvas whose size changed runs.
+    assert_eq!(bench.with(&sizes([200, 100], [60, 80])).ran(), ["side", "other"]);
+    assert_eq!(bench.with(&Request { size: Some([60, 80]), ..Request::default() }).ran(), ["view", "filter", "canvas"]);
+}
+
+#[test]
+fn images_that_meet_are_of_one_size() {
+    let mut network = pipeline();
+    network.add("preview", "side").unwrap();
+    network.add("compositor", "over").unwrap();
+    network.add("canvas", "other").unwrap();
+    network.connect(("data", "volume"), ("side", "volume")).unwrap();
+    network.connect(("view", "image"), ("over", "layers")).unwrap();
+    network.connect(("side", "image"), ("over", "layers")).unwrap();
+    network.connect(("over", "image"), ("other", "image")).unwrap();
+    let mut bench = Bench::new(network);
+    let sizes = [("canvas".to_owned(), [200, 100]), ("other".to_owned(), [30, 40])].into();
+    bench.with(&Request { sizes, ..Request::default() });
+    assert_eq!((bench.backend.sizes["view"], bench.backend.sizes["side"]), ([200, 100], [200, 100]));
+}
+
+#[test]
 fn one_sink_can_be_asked_for() {
     let mut network = pipeline();
     network.add("canvas", "other").unwrap();

@@ -24,6 +24,7 @@ impl<F: FnMut(&mut egui::Ui, &mut Session)> eframe::App for Piece<F> {
         let session = &mut self.studio.session;
         session.engine.listen();
         session.watched.clear();
+        session.shown.clear();
         egui::CentralPanel::default().show(ui, |ui| (self.show)(ui, session));
         let request = session.request();
         session.engine.order(session.document.revision(), session.document.network(), request);

@@ -11,7 +11,7 @@ use rayloom_processors::Image;
 
 use crate::display::Look;
 use crate::inspect::image::paint;
-use crate::session::Session;
+use crate::session::{CANVAS, Session};
 use camera::Held;
 
 /// What keys and the pointer do, for F1.
@@ -63,8 +63,9 @@ impl CanvasPanel {
         response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Image, true, format!("canvas {canvas}")));
         let scale = ui.ctx().pixels_per_point();
         let pixels = [area.width(), area.height()].map(|points| (points * scale).round().clamp(1.0, 8192.0) as u32);
-        let largest = session.canvas_size.unwrap_or([1, 1]);
-        session.canvas_size = Some([pixels[0].max(largest[0]), pixels[1].max(largest[1])]);
+        // A canvas in two places gets the picture of the larger one.
+        let size = session.shown.entry(canvas.to_owned()).or_insert(pixels);
+        *size = [size[0].max(pixels[0]), size[1].max(pixels[1])];
         ui.painter().rect_filled(area, 0.0, Color32::BLACK);
         let Some(image) = session.engine.results.canvases.get(canvas).cloned() else {
             let (text, color) = absence(session, canvas);
@@ -146,7 +147,7 @@ fn absence(session: &Session, canvas: &str) -> (String, Color32) {
 
 /// Ids of the sinks that show an image.
 fn canvases(network: &Network) -> impl Iterator<Item = &str> {
-    network.processors().filter(|processor| processor.type_id() == "canvas").map(|processor| processor.id())
+    network.processors().filter(|processor| processor.type_id() == CANVAS).map(|processor| processor.id())
 }
 
 /// The camera or slice nearest upstream of a canvas.
