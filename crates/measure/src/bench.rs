@@ -84,7 +84,7 @@ impl Bench {
     pub fn subject(&mut self) -> Result<Subject, MeasureError> {
         let Chain { volume, entry, geometry, .. } = self.chain.clone();
         self.bring(vec![volume, entry, geometry])?;
-        Subject::of(&self.network, &self.evaluator, &self.chain)
+        Subject::of(&self.network, |port| self.evaluator.output(&port.processor, &port.item), &self.chain)
     }
 
     fn again(&mut self, level: Level) {

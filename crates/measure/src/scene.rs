@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use rayloom_network::{self as network, Evaluator, LightSpace, Network, Properties};
-use rayloom_processors::{Data, Mesh, Runner, View};
+use rayloom_network::{self as network, LightSpace, Network, Properties};
+use rayloom_processors::{Data, Mesh, View};
 use rayloom_reference::field::Sampling;
 use rayloom_reference::gradient::GradientOperator;
 use rayloom_reference::ray::AxisBox;
@@ -42,19 +42,21 @@ fn refuse<T>(why: impl Into<String>) -> Refusable<T> {
 }
 
 impl Subject {
-    /// What the ray traversal of `chain` shows. The outports `volume`, `entry` and `geometry` of the chain must have been
-    /// evaluated.
+    /// What the ray traversal of `chain` shows. `outputs` gives what is on the outports `volume`, `entry` and `geometry` of
+    /// the chain.
     ///
     /// # Errors
     /// A [`Refusal`] where the traversal shows something that the reference does not know: another compositing, shading,
     /// classification or gradient, edited shader text, proxy geometry that is not a box along the voxel axes.
-    pub fn of(network: &Network, evaluator: &Evaluator<Runner>, chain: &Chain) -> Refusable<Self> {
+    pub fn of<'d>(
+        network: &Network,
+        outputs: impl Fn(&network::Address) -> Option<&'d Data>,
+        chain: &Chain,
+    ) -> Refusable<Self> {
         let missing = |what| MeasureError::Evaluation(format!("{what} has not been computed, so there is no scene."));
         let properties =
             network.processor(chain.traversal()).ok_or_else(|| missing(chain.image.to_string()))?.properties();
-        let output = |port: &network::Address| {
-            evaluator.output(&port.processor, &port.item).ok_or_else(|| missing(port.to_string()))
-        };
+        let output = |port: &network::Address| outputs(port).ok_or_else(|| missing(port.to_string()));
         let Data::Volume(data) = output(&chain.volume)? else { return Err(missing(chain.volume.to_string())) };
         let Data::Geometry(mesh) = output(&chain.geometry)? else { return Err(missing(chain.geometry.to_string())) };
         let view = match output(&chain.entry)? {
