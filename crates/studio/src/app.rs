@@ -162,6 +162,9 @@ impl Studio {
                 if ui.button("Visualization mode (F5)").clicked() {
                     self.switch_mode();
                 }
+                if ui.button("Accuracy").on_hover_text("Compare the picture with an exact one.").clicked() {
+                    self.session.to_open.push(Pane::Accuracy);
+                }
                 if ui.button("Default layout").clicked() {
                     self.tiles = panels::default_layout();
                 }
@@ -228,7 +231,7 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
     }
 
     fn is_tab_closable(&self, tiles: &egui_tiles::Tiles<Pane>, tile: egui_tiles::TileId) -> bool {
-        matches!(tiles.get_pane(&tile), Some(Pane::Inspector(_)))
+        matches!(tiles.get_pane(&tile), Some(Pane::Inspector(_) | Pane::Accuracy))
     }
 
     fn simplification_options(&self) -> egui_tiles::SimplificationOptions {

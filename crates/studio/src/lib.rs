@@ -6,6 +6,7 @@
 
 mod app;
 mod catalog;
+mod comparison;
 mod device;
 mod display;
 mod document;
@@ -14,6 +15,7 @@ mod inspect;
 mod palette;
 mod panels;
 mod session;
+mod task;
 mod theme;
 mod visualization;
 mod wiring;

@@ -4,7 +4,7 @@ use egui_tiles::{Container, LinearDir, Tile, TileId, Tiles, Tree};
 
 use super::Pane;
 
-/// Opens a pane, or brings it to the front if it is open. Inspectors lie side by side, beside the canvas, everything else in
+/// Opens a pane, or brings it to the front if it is open. Pictures lie side by side, beside the canvas, everything else in
 /// tabs with the properties.
 pub fn open(tree: &mut Tree<Pane>, pane: Pane) {
     if let Some(known) = tree.tiles.find_pane(&pane) {
@@ -14,7 +14,7 @@ pub fn open(tree: &mut Tree<Pane>, pane: Pane) {
     }
     let first = |wanted: fn(&Pane) -> bool| find(tree, wanted);
     let place = match pane {
-        Pane::Inspector(_) => first(|pane| matches!(pane, Pane::Inspector(_)))
+        Pane::Inspector(_) | Pane::Accuracy => first(|pane| matches!(pane, Pane::Inspector(_) | Pane::Accuracy))
             .map(|inspector| (inspector, Some(LinearDir::Horizontal)))
             .or_else(|| first(|pane| matches!(pane, Pane::Canvas)).map(|canvas| (canvas, Some(LinearDir::Horizontal)))),
         _ => first(|pane| matches!(pane, Pane::Properties)).map(|properties| (properties, None)),

@@ -1,5 +1,6 @@
 //! The panels: each shows one aspect of the session and edits it.
 
+mod accuracy;
 pub(crate) mod canvas;
 mod dock;
 mod inspector;
@@ -29,6 +30,8 @@ pub enum Pane {
     Messages,
     /// The properties of what is selected.
     Properties,
+    /// How far the picture is from what it should be.
+    Accuracy,
     /// What is on an outport, kept in sight.
     Inspector(Address),
 }
@@ -42,6 +45,7 @@ impl Pane {
             Self::Canvas => "Canvas".into(),
             Self::Messages => "Messages".into(),
             Self::Properties => "Properties".into(),
+            Self::Accuracy => "Accuracy".into(),
             Self::Inspector(outport) => outport.to_string(),
         }
     }
@@ -53,6 +57,7 @@ pub struct Panels {
     processors: processors::ProcessorsPanel,
     network: network::NetworkPanel,
     canvas: canvas::CanvasPanel,
+    accuracy: accuracy::AccuracyPanel,
     inspectors: inspector::Inspectors,
     properties: properties::PropertiesPanel,
     visualization: Visualization,
@@ -71,6 +76,7 @@ impl Panels {
             Pane::Canvas => self.canvas.show(ui, session),
             Pane::Messages => messages::show(ui, session),
             Pane::Properties => self.properties.show(ui, session),
+            Pane::Accuracy => self.accuracy.show(ui, session),
             Pane::Inspector(outport) => self.inspectors.show(ui, session, outport),
         }
     }

@@ -63,6 +63,16 @@ pub fn wait_for<T>(harness: &mut Harness<'_, T>, label: &str) {
     }
 }
 
+/// Frames until nothing is labelled so.
+pub fn wait_while<T>(harness: &mut Harness<'_, T>, label: &str) {
+    let start = Instant::now();
+    while harness.query_all_by_label_contains(label).next().is_some() {
+        assert!(start.elapsed() < PATIENCE, "something still says `{label}`");
+        harness.step();
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
 /// Writes what is on the window for people to look at.
 pub fn keep_picture<T>(harness: &mut Harness<'_, T>, name: &str) {
     let picture = harness.render().expect("a picture");
