@@ -14,9 +14,9 @@ fn brick_at(p: vec3f) -> vec3i {
     return clamp(vec3i(floor(p * frame.brick_scale)), vec3i(0), last);
 }
 
-/// The next sample to take when all bricks closer than `empty` to that of sample `base` are empty (1: only its own).
-/// Samples stay on their lattice; too short a leap costs a look, too long a one would cost the picture, so it rounds down.
-fn leap(ray: Ray, base: u32, p: vec3f, brick: vec3i, empty: u32) -> u32 {
+/// The next sample to take from `index` on when all bricks closer than `empty` to that of its leap base are empty (1: only its
+/// own), which lies at `p` in `brick`. Samples stay on their lattice; too short a leap costs a look, too long a one would cost the picture, so it rounds down.
+fn leap(ray: Ray, index: u32, p: vec3f, brick: vec3i, empty: u32) -> u32 {
     let reach = f32(empty) - 1.0;
     let low = (vec3f(brick) - reach) / frame.brick_scale;
     let high = (vec3f(brick) + 1.0 + reach) / frame.brick_scale;
@@ -27,9 +27,10 @@ fn leap(ray: Ray, base: u32, p: vec3f, brick: vec3i, empty: u32) -> u32 {
     let exit = min(exits.x, min(exits.y, exits.z));
     let inside = u32(clamp(floor(exit * (1.0 - 1e-5) - 1e-3), 0.0, 1e9));
 #if previous
-    // The last empty sample becomes the predecessor of the first that is not.
-    return max(base + inside, base + 1u);
+    // The last empty sample becomes the predecessor of the first that is not. The first of all follows on the entry point,
+    // which may lie in another brick.
+    return select(max(index - 1u + inside, index), 0u, index == 0u);
 #else
-    return base + 1u + inside;
+    return index + 1u + inside;
 #endif
 }

@@ -5,11 +5,10 @@
 #include "skipping/leap.wgsl"
 
 fn skip_empty(ray: Ray, index: u32) -> u32 {
-    let base = leap_base(index);
-    let p = position_along(ray, segment(ray, base).x);
+    let p = position_along(ray, segment(ray, leap_base(index)).x);
     let brick = brick_at(p);
     if textureLoad(skip_map, brick, 0).x == 0u {
         return index;
     }
-    return max(index, leap(ray, base, p, brick, 1u));
+    return max(index, leap(ray, index, p, brick, 1u));
 }

@@ -77,3 +77,15 @@ pub const HALVES: f64 = 1e-6;
 pub const PADDED: f64 = 5e-6;
 /// The same with shading, and where the place of a surface counts.
 pub const PADDED_SHADED: f64 = 5e-5;
+/// E24, E28, E31: values in another unit are rounded to f64 (the largest offset leaves 1e-7 of the range) and normalised to f32.
+pub const UNITS: f64 = 1e-5;
+/// I7: largest difference of worlds of another size or place. Matrices are built in f64 and round to f32 otherwise; where rays
+/// graze a surface or a normal is seen edge-on, more shows.
+pub const WORLDS: f64 = 1e-5;
+/// E48: unit normals on stretched grids, where a voxel's difference is a hundredth of the value range.
+pub const STRETCHED_NORMAL: f64 = 1e-4;
+/// E34: relative error after 1e5 steps, or as many as the driver allows. An addition near 1e-3 rounds to 2^-34, 6e-3 of a step of
+/// 1e-8, and to the same side for equal steps: by up to 3e-3 in all if it were always the worst, a tenth of which is found.
+pub const FAINTEST: f64 = 3e-4;
+/// E41: opacity of a spike between entries of a pre-integrated table of 256, whose means are interpolated.
+pub const SPIKE: f64 = 1e-3;

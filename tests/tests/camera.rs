@@ -138,7 +138,7 @@ fn a_near_plane_within_the_box() {
 #[test]
 fn an_eye_far_away() {
     let mut medium = Medium::new([16, 16, 16], DVec3::splat(1.0));
-    for distance in [1e2_f64, 1e4, 1e6] {
+    for distance in [1e2_f64, 1e4, 1e6, 1e9] {
         let eye = DVec3::new(0.6, -0.7, 0.39).normalize() * distance;
         let fov = 2.0 * (0.9 / distance).atan().to_degrees();
         medium.judge(&format!("{distance:e} extents away"), &upright(Camera::perspective(eye, DVec3::ZERO, fov)), 0.25);
@@ -178,6 +178,39 @@ fn rays_that_run_within_a_face() {
         let full = (alpha - whole).abs() <= VIEW_OPACITY;
         let edge = x == 0 || x == 8 || y == 0 || y == 8;
         assert!(full || edge && alpha == 0.0, "({x}, {y}): {pixel:?}");
+    }
+}
+
+/// E7: along and beside the axes from eyes on planes, edges and corners of the box, inside and outside: directions have one or
+/// two components that are exactly 0.
+#[test]
+fn axes_and_diagonals_from_planes_of_the_box() {
+    let mut medium = Medium::new([8, 8, 8], DVec3::splat(2.0));
+    let axes = |n: i32| DVec3::new(f64::from(n % 3 - 1), f64::from(n / 3 % 3 - 1), f64::from(n / 9 - 1));
+    for toward in (0..27).map(axes).filter(|direction| *direction != DVec3::ZERO) {
+        let up = if toward.x == 0.0 && toward.y == 0.0 { DVec3::X } else { DVec3::Z };
+        for (place, coverage) in [(0.0, 0.5), (-1.0, 0.2), (-3.0, 0.02)] {
+            let eye = place * toward;
+            let perspective = Camera { up, ..Camera::perspective(eye, eye + toward, 50.0) };
+            medium.judge(&format!("from {place} along {toward}"), &perspective, coverage);
+            let parallel = Camera { up, ..Camera::orthographic(eye, eye + toward, 1.99) };
+            medium.judge(&format!("parallel from {place} along {toward}"), &parallel, coverage);
+        }
+    }
+}
+
+/// E9: turned by ten-thousandths of a degree, rays begin to graze a face; none of them drops out.
+#[test]
+fn grazing_rays() {
+    let mut medium = Medium::new([8, 8, 8], DVec3::splat(2.0));
+    for step in -10..=10 {
+        let angle = (1e-4 * f64::from(step)).to_radians();
+        let direction = DVec3::new(angle.cos(), angle.sin(), 0.0);
+        let camera = upright(Camera::orthographic(-4.0 * direction, DVec3::ZERO, 2.4));
+        medium.judge(&format!("parallel, turned by {step}e-4 degrees"), &camera, 0.5);
+        let beside =
+            upright(Camera::perspective(DVec3::new(-3.0, 1.0, 0.2), DVec3::new(-3.0, 1.0, 0.2) + direction, 50.0));
+        medium.judge(&format!("in the plane of a face, turned by {step}e-4 degrees"), &beside, 0.05);
     }
 }
 

@@ -83,7 +83,8 @@ fn most_samples(
     /// Rounds left to the refinement of surfaces.
     const SPARE: u32 = 256;
     let Some(rounds) = context.gpu.loop_rounds() else { return Ok(None) };
-    let most = (rounds - SPARE) / if nested { 2 } else { 1 };
+    // A visible sample found by the inner loop takes a round of the outer and two of the inner one: its own and its last check.
+    let most = (rounds - SPARE) / if nested { 3 } else { 1 };
     let longest = inputs.volume.volume.dims_f64().length() * job.properties.f64("sampling_rate")?;
     if longest > f64::from(most) {
         notes.push(format!(

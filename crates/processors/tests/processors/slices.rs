@@ -37,22 +37,25 @@ fn slices_show_the_field_in_true_proportions() {
 #[test]
 fn every_axis_has_its_slice_and_the_ends_belong_to_the_volume() {
     // Nearest voxels, window over one digit: the slice at the end is the outermost voxel.
-    let at = |plane: &str, position: f64| {
+    let at_window = |plane: &str, position: f64, window: [f64; 2]| {
         let properties = [
             ("plane", text(plane)),
             ("position", Value::Float(position)),
             ("interpolation", text("nearest")),
             ("automatic", Value::Bool(false)),
-            ("window", Value::Vector(vec![0.0, 1000.0])),
+            ("window", Value::Vector(window.to_vec())),
         ];
         let result = picture(&slice(&properties, [64, 64]));
         let middle = result.pixels[32 * 64 + 32];
         (middle[0] * 1000.0).round()
     };
+    let at = |plane: &str, position: f64| at_window(plane, position, [0.0, 1000.0]);
     // Just right of and below the middle: the upper of the two middle voxels to the right, the lower one upwards.
     assert_eq!([at("x", 0.0), at("x", 1.0)], [340.0, 347.0]);
     assert_eq!([at("y", 0.0), at("y", 1.0)], [304.0, 374.0]);
     assert_eq!([at("z", 0.0), at("z", 1.0)], [34.0, 734.0]);
+    // A window whose first end is the larger one shows the negative.
+    assert_eq!(at_window("z", 1.0, [1000.0, 0.0]), 1000.0 - 734.0);
 }
 
 #[test]

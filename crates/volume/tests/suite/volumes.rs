@@ -71,6 +71,21 @@ fn normalising_survives_extreme_ranges() {
     assert_eq!(fraction(1.0, 2.0, 2.0), 0.0);
 }
 
+/// E21: positions beyond 2^31. Zeros are not touched by anything but the search for the range, so they take no memory.
+#[test]
+fn voxels_beyond_the_31st_bit_are_found() {
+    let dims = [2048, 2048, 513];
+    let mut voxels = vec![0_u8; 2048 * 2048 * 513];
+    if let Some(last) = voxels.last_mut() {
+        *last = 200;
+    }
+    let volume = Volume::new("large", dims, 1, Voxels::U8(voxels), DAffine3::IDENTITY).unwrap();
+    let corner = [2047, 2047, 512];
+    assert!(volume.position(corner, 0) > 1 << 31);
+    assert_eq!((volume.value(corner, 0), volume.value([2046, 2047, 512], 0)), (200.0, 0.0));
+    assert_eq!(volume.ranges(), [ValueRange::new(0.0, 200.0)]);
+}
+
 #[test]
 fn the_box_lies_half_a_voxel_around_the_centres() {
     let transform =

@@ -1,4 +1,4 @@
-//! Every property of the ray traversal at the ends of its range: a finite picture, or an error that says what to do; never a
+//! E10, E56, E69: every property of the ray traversal at the ends of its range: a finite picture, or an error that says what to do; never a
 //! panic, a NaN or a hang.
 
 use rayloom_network::{Network, Outcome, PropertyDecl, PropertyKind, Request, Value};
