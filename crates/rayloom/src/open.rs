@@ -23,7 +23,7 @@ pub fn run(network: Option<&PathBuf>, mode: StartMode) -> Result<String, Failure
         StartMode::Development => Mode::Development,
         StartMode::Visualization => Mode::Visualization,
     };
-    let options = Options { network: network.map(|path| Path::to_owned(path)), mode };
+    let options = Options { network: network.map(|path| Path::to_owned(path)), mode, ..Options::default() };
     rayloom_studio::run(options).map_err(|error| Failure::new(format!("the window cannot be opened: {error}")))?;
     Ok(String::new())
 }

@@ -1,6 +1,6 @@
 //! The window: menu bar, dockable panels, status line, keyboard.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use egui::{Key, KeyboardShortcut, Modifiers};
@@ -8,19 +8,23 @@ use egui_tiles::{Tree, UiResponse};
 use rayloom_processors::registry;
 
 use crate::device::Complaints;
+use crate::dialogs::Chooser;
 use crate::display::{Display, gpu_of};
 use crate::engine::Engine;
+use crate::files::{self, Files};
 use crate::panels::{self, Pane, Panels};
 use crate::session::{Mode, Session, Severity};
 use crate::theme;
 use crate::visualization::Application;
 
+const NEW: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::N);
 const OPEN: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::O);
 const SAVE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::S);
 const SAVE_AS: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::S);
 const UNDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Z);
 const REDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
 const REDO_TOO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Y);
+const QUIT: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Q);
 const SWITCH_MODE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::NONE, Key::F5);
 
 /// What to start with.
@@ -30,12 +34,15 @@ pub struct Options {
     pub network: Option<PathBuf>,
     /// The mode to start in.
     pub mode: Mode,
+    /// Whom to ask for files.
+    pub chooser: Chooser,
 }
 
 /// The application.
 pub struct Studio {
     /// What the panels share.
     pub session: Session,
+    files: Files,
     panels: Panels,
     tiles: Tree<Pane>,
     complaints: Complaints,
@@ -59,36 +66,14 @@ impl Studio {
         theme::apply(&creation.egui_ctx);
         let mut session = Session::new(Arc::new(registry()), engine, display);
         session.mode = options.mode;
-        let mut studio = Self { session, panels: Panels::default(), tiles: panels::default_layout(), complaints };
-        if let Some(path) = &options.network {
-            studio.open(path);
+        session.chooser = options.chooser.clone();
+        let (document, warnings, failure) = files::first_document(options.network.as_deref(), &session.registry);
+        session.show(document, &warnings);
+        if let Some(failure) = failure {
+            session.tell(Severity::Error, failure.to_string());
         }
-        Ok(studio)
-    }
-
-    /// Opens a network file and shows all of it.
-    pub fn open(&mut self, path: &Path) {
-        if self.session.open(path) {
-            self.panels = Panels::default();
-        }
-    }
-
-    fn save(&mut self, ask: bool) {
-        let known = self.session.document.path().map(Path::to_owned).filter(|_| !ask);
-        let chosen = known.or_else(|| {
-            rfd::FileDialog::new().add_filter("Rayloom network", &["json"]).set_file_name("network.json").save_file()
-        });
-        if let Some(path) = chosen
-            && self.session.save(&path)
-        {
-            self.session.tell(Severity::Note, format!("saved {}", path.display()));
-        }
-    }
-
-    fn choose_file(&mut self) {
-        if let Some(path) = rfd::FileDialog::new().add_filter("Rayloom network", &["json"]).pick_file() {
-            self.open(&path);
-        }
+        let tiles = panels::default_layout();
+        Ok(Self { session, files: Files::default(), panels: Panels::default(), tiles, complaints })
     }
 
     fn shortcuts(&mut self, context: &egui::Context) {
@@ -101,13 +86,19 @@ impl Studio {
             self.session.document.undo();
         }
         if pressed(SAVE_AS) {
-            self.save(true);
+            self.files.save_as(&mut self.session, context);
         }
         if pressed(SAVE) {
-            self.save(false);
+            self.files.save(&mut self.session, context);
+        }
+        if pressed(NEW) {
+            self.files.new_network(&mut self.session, context);
         }
         if pressed(OPEN) {
-            self.choose_file();
+            self.files.choose(&mut self.session, context);
+        }
+        if pressed(QUIT) {
+            self.files.quit(&mut self.session, context);
         }
         if pressed(SWITCH_MODE) {
             self.switch_mode();
@@ -133,18 +124,24 @@ impl Studio {
                     let shortcut = ui.ctx().format_shortcut(&shortcut);
                     ui.add(egui::Button::new(text).shortcut_text(shortcut)).clicked()
                 };
+                let context = ui.ctx().clone();
+                let (files, session) = (&mut self.files, &mut self.session);
+                if item(ui, "New", NEW) {
+                    files.new_network(session, &context);
+                }
                 if item(ui, "Open...", OPEN) {
-                    self.choose_file();
-                }
-                if item(ui, "Save", SAVE) {
-                    self.save(false);
-                }
-                if item(ui, "Save as...", SAVE_AS) {
-                    self.save(true);
+                    files.choose(session, &context);
                 }
                 ui.separator();
-                if ui.button("Quit").clicked() {
-                    ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
+                if item(ui, "Save", SAVE) {
+                    files.save(session, &context);
+                }
+                if item(ui, "Save as...", SAVE_AS) {
+                    files.save_as(session, &context);
+                }
+                ui.separator();
+                if item(ui, "Quit", QUIT) {
+                    files.quit(session, &context);
                 }
             });
             ui.menu_button("Edit", |ui| {
@@ -190,6 +187,10 @@ impl Studio {
             } else {
                 ui.label("ready");
             }
+            if let Some(working) = self.files.working() {
+                ui.separator();
+                ui.label(working);
+            }
             ui.separator();
             ui.label(format!("{:.0} ms", report.elapsed.as_secs_f64() * 1e3));
             if self.session.interacting {
@@ -207,9 +208,8 @@ impl Studio {
 
     fn title(&self) -> String {
         let document = &self.session.document;
-        let name = document.path().and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
         let mark = if document.is_modified() { "*" } else { "" };
-        format!("{}{mark} - Rayloom", name.unwrap_or_else(|| "unnamed".into()))
+        format!("{}{mark} - Rayloom", document.title())
     }
 }
 
@@ -243,6 +243,9 @@ impl eframe::App for Studio {
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         let context = ui.ctx().clone();
         self.session.engine.listen();
+        if self.files.begin_frame(&mut self.session, &context) {
+            self.panels = Panels::default();
+        }
         for complaint in self.complaints.take() {
             self.session.tell(Severity::Error, format!("the graphics device complains: {complaint}"));
         }
@@ -261,6 +264,7 @@ impl eframe::App for Studio {
             }
             Mode::Visualization => self.panels.visualization(ui, &mut self.session),
         });
+        self.files.show(&mut self.session, &context);
         for pane in std::mem::take(&mut self.session.to_open) {
             panels::open(&mut self.tiles, pane);
         }

@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
-use rayloom_network::{LoadError, Network, Registry, SaveError, Warning};
+use rayloom_network::{LoadError, Network, Registry, Warning};
 
 /// Steps that can be undone at most; a step is a snapshot, which shares nothing but is small.
 const HISTORY: usize = 500;
@@ -22,9 +23,11 @@ pub struct Document {
     path: Option<PathBuf>,
     undo: Vec<Step>,
     redo: Vec<Step>,
-    /// Text of the file as last saved or loaded.
-    saved: String,
-    /// Grows with every change of the network.
+    /// Text of the network now, with whole paths.
+    current: String,
+    /// That text as last saved or loaded; `None` when there is no such file any more.
+    saved: Option<String>,
+    /// Another after every change of the network.
     revision: u64,
 }
 
@@ -35,10 +38,9 @@ impl Document {
     }
 
     fn of(network: Network, path: Option<PathBuf>) -> Self {
-        let mut document =
-            Self { network, path, undo: Vec::new(), redo: Vec::new(), saved: String::new(), revision: 1 };
-        document.saved = document.text();
-        document
+        let current = network.to_text(None);
+        let saved = Some(current.clone());
+        Self { network, path, undo: Vec::new(), redo: Vec::new(), current, saved, revision: new_revision() }
     }
 
     /// Loads a network file; the warnings are about things kept but not understood.
@@ -50,15 +52,15 @@ impl Document {
         Ok((Self::of(loaded.network, Some(path.to_owned())), loaded.warnings))
     }
 
-    /// Saves to a file, which becomes the document's own.
-    ///
-    /// # Errors
-    /// The file cannot be written; nothing is lost.
-    pub fn save(&mut self, path: &Path) -> Result<(), SaveError> {
-        self.network.save(path)?;
-        self.path = Some(path.to_owned());
-        self.saved = self.text();
-        Ok(())
+    /// A network that no file has as it is: recovered after the program ended without saving it.
+    pub fn unsaved(network: Network, path: Option<PathBuf>) -> Self {
+        Self { saved: None, ..Self::of(network, path) }
+    }
+
+    /// Takes note that `network` was saved to a file, which becomes the document's own. The document may have changed since.
+    pub fn saved_as(&mut self, path: PathBuf, network: &Network) {
+        self.path = Some(path);
+        self.saved = Some(network.to_text(None));
     }
 
     /// The network.
@@ -71,7 +73,13 @@ impl Document {
         self.path.as_deref()
     }
 
-    /// A number that grows with every change.
+    /// What to call it: its file's name, or that it has none.
+    pub fn title(&self) -> String {
+        let name = self.path().and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
+        name.unwrap_or_else(|| "unnamed".into())
+    }
+
+    /// A number that grows with every change, and that no other document has.
     pub fn revision(&self) -> u64 {
         self.revision
     }
@@ -83,7 +91,7 @@ impl Document {
 
     /// Whether there is anything that is not saved.
     pub fn is_modified(&self) -> bool {
-        self.text() != self.saved
+        self.saved.as_ref() != Some(&self.current)
     }
 
     /// Changes the network. A change that fails, or changes nothing, leaves no trace.
@@ -116,11 +124,13 @@ impl Document {
     ) -> Result<T, E> {
         let mut after = self.network.clone();
         let result = change(&mut after)?;
-        if after.to_text(None) == self.network.to_text(None) {
+        let text = after.to_text(None);
+        if text == self.current {
             return Ok(result);
         }
         let before = std::mem::replace(&mut self.network, after);
-        self.revision += 1;
+        self.current = text;
+        self.revision = new_revision();
         self.redo.clear();
         let merges = key.is_some() && self.undo.last().is_some_and(|last| last.key == key);
         if !merges {
@@ -150,21 +160,29 @@ impl Document {
 
     /// Takes the last step back.
     pub fn undo(&mut self) -> bool {
-        Self::travel(&mut self.network, &mut self.undo, &mut self.redo, &mut self.revision)
+        let step = self.undo.pop();
+        step.map(|step| self.travel(step)).map(|left| self.redo.push(left)).is_some()
     }
 
     /// Does the last step taken back again.
     pub fn redo(&mut self) -> bool {
-        Self::travel(&mut self.network, &mut self.redo, &mut self.undo, &mut self.revision)
+        let step = self.redo.pop();
+        step.map(|step| self.travel(step)).map(|left| self.undo.push(left)).is_some()
     }
 
-    fn travel(network: &mut Network, from: &mut Vec<Step>, to: &mut Vec<Step>, revision: &mut u64) -> bool {
-        let Some(step) = from.pop() else { return false };
-        let left = std::mem::replace(network, step.before);
-        to.push(Step { before: left, label: step.label, key: None });
-        *revision += 1;
-        true
+    /// Goes where a step leads and returns the step back.
+    fn travel(&mut self, step: Step) -> Step {
+        let left = std::mem::replace(&mut self.network, step.before);
+        self.current = self.network.to_text(None);
+        self.revision = new_revision();
+        Step { before: left, label: step.label, key: None }
     }
+}
+
+/// A number that no state of any document had in this run of the program.
+fn new_revision() -> u64 {
+    static LAST: AtomicU64 = AtomicU64::new(0);
+    LAST.fetch_add(1, Ordering::Relaxed) + 1
 }
 
 #[cfg(test)]
@@ -213,16 +231,15 @@ mod tests {
 
     #[test]
     fn saving_and_undoing_tell_what_is_modified() {
-        let folder = std::env::temp_dir().join(format!("rayloom-document-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).expect("folder");
         let mut document = document();
         assert!(document.is_modified());
-        document.save(&folder.join("network.json")).expect("saved");
-        assert!(!document.is_modified());
+        let being_saved = document.network().clone();
         set_rate(&mut document, 2.0);
-        assert!(document.is_modified());
+        document.saved_as("network.json".into(), &being_saved);
+        assert!(document.is_modified(), "it was changed while it was being saved");
         document.undo();
         assert!(!document.is_modified());
-        std::fs::remove_dir_all(&folder).expect("removed");
+        let recovered = Document::unsaved(document.network().clone(), None);
+        assert!(recovered.is_modified());
     }
 }

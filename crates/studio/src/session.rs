@@ -1,12 +1,12 @@
 //! What all panels share: the document, its results, the selection, messages.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use rayloom_network::{Address, EditError, Network, Processor, Registry, Request, Sinks, Value};
+use rayloom_network::{Address, EditError, Network, Processor, Registry, Request, Sinks, Value, Warning};
 
+use crate::dialogs::Chooser;
 use crate::display::Display;
 use crate::document::Document;
 use crate::engine::Engine;
@@ -57,6 +57,8 @@ pub struct Session {
     pub document: Document,
     /// Evaluates it.
     pub engine: Engine,
+    /// Whom to ask for files.
+    pub chooser: Chooser,
     /// Shows its images.
     pub display: Display,
     /// What is known about data that is looked at.
@@ -84,6 +86,7 @@ impl Session {
             document: Document::new(registry.clone()),
             registry,
             engine,
+            chooser: Chooser::default(),
             display,
             inspection: Inspection::default(),
             to_open: Vec::new(),
@@ -134,32 +137,12 @@ impl Session {
         }
     }
 
-    /// Opens a network file; the document stays as it is when that fails. Whether it worked.
-    pub fn open(&mut self, path: &Path) -> bool {
-        match Document::load(path, &self.registry) {
-            Ok((document, warnings)) => {
-                self.document = document;
-                self.selection.clear();
-                for warning in warnings {
-                    self.tell(Severity::Note, warning.to_string());
-                }
-                true
-            }
-            Err(error) => {
-                self.tell(Severity::Error, error.to_string());
-                false
-            }
-        }
-    }
-
-    /// Saves the document to a file. Whether it worked.
-    pub fn save(&mut self, path: &Path) -> bool {
-        match self.document.save(path) {
-            Ok(()) => true,
-            Err(error) => {
-                self.tell(Severity::Error, error.to_string());
-                false
-            }
+    /// Shows another document in place of the one there is, and what is odd about it.
+    pub fn show(&mut self, document: Document, warnings: &[Warning]) {
+        self.document = document;
+        self.selection.clear();
+        for warning in warnings {
+            self.tell(Severity::Note, warning.to_string());
         }
     }
 

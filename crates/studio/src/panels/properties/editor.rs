@@ -1,7 +1,7 @@
 //! The editor of a value, by the kind of its property.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use egui::{Color32, Ui};
@@ -9,10 +9,11 @@ use rayloom_network::{Address, Network, ProcessError, Properties, PropertyDecl, 
 use rayloom_volume::Volume;
 
 use super::action::Action;
-use super::dialog::Dialogs;
+use super::exchange::Exchanged;
 use super::histograms::Histograms;
 use super::number::{Entered, Number};
 use super::{camera, choice, file, labels, light, shader_text, text, transfer_function, transfer_function_2d, vector};
+use crate::dialogs::{Chooser, Dialogs};
 use crate::theme;
 
 /// Ends beyond this are no help to a slider.
@@ -23,8 +24,10 @@ const ENDLESS: f64 = 1e9;
 pub(super) struct Tools {
     /// Histograms of the volumes seen.
     pub histograms: Histograms,
-    /// Open file dialogs.
-    pub dialogs: Dialogs,
+    /// Open dialogs that ask for a file.
+    pub dialogs: Dialogs<PathBuf>,
+    /// Values on their way from or to files.
+    pub exchanges: Dialogs<Exchanged>,
     /// Transfer function editors.
     pub curves: BTreeMap<Address, transfer_function::State>,
     /// Editors of 2-D transfer functions.
@@ -58,6 +61,8 @@ pub(super) struct Surroundings<'a> {
     pub failure: Option<&'a ProcessError>,
     /// The folder of the network file.
     pub folder: Option<&'a Path>,
+    /// Whom to ask for files.
+    pub chooser: &'a Chooser,
     /// What editors remember.
     pub tools: &'a mut Tools,
     /// What the user did.

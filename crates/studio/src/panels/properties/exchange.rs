@@ -1,17 +1,25 @@
 //! Values from and to JSON files and the clipboard.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use egui::Ui;
 use rayloom_network::{PropertyDecl, Value};
 
 use super::action::Action;
-use super::dialog::Question;
 use super::editor::Surroundings;
+use crate::dialogs::Question;
 use crate::session::Severity;
 
 /// Files larger than this are no transfer functions.
 const LARGEST: u64 = 16 << 20;
+
+/// What came of a chosen file.
+pub(super) enum Exchanged {
+    /// It was read.
+    Read(Result<Value, String>),
+    /// It was written, or not, and what to tell about that.
+    Written(Severity, String),
+}
 
 /// A menu that reads and writes a value; the value that was read.
 pub(super) fn menu(
@@ -26,14 +34,18 @@ pub(super) fn menu(
     let name = format!("{}.json", decl.id);
     let folder = surroundings.folder;
     let question = |save_as| Question { name: "JSON", extensions: &extensions, folder, save_as };
+    let dialogs = &mut surroundings.tools.exchanges;
     ui.menu_button("File", |ui| {
-        let dialogs = &mut surroundings.tools.dialogs;
         if ui.button("Import JSON...").clicked() {
-            dialogs.ask(import, ui.ctx(), &question(None));
+            let decl = decl.clone();
+            let work = move |path: PathBuf| Exchanged::Read(read(&path, &decl).map_err(|error| problem(&path, &error)));
+            dialogs.ask(import, ui.ctx(), surroundings.chooser, &question(None), work);
             ui.close();
         }
         if ui.button("Export JSON...").clicked() {
-            dialogs.ask(export, ui.ctx(), &question(Some(&name)));
+            let json = json();
+            dialogs
+                .ask(export, ui.ctx(), surroundings.chooser, &question(Some(&name)), move |path| write(&path, &json));
             ui.close();
         }
         if ui.button("Copy as JSON").clicked() {
@@ -41,20 +53,22 @@ pub(super) fn menu(
             ui.close();
         }
     });
-    if let Some(path) = surroundings.tools.dialogs.answer(export) {
-        let (severity, text) = match std::fs::write(&path, json()) {
-            Ok(()) => (Severity::Note, format!("wrote {}", path.display())),
-            Err(error) => (Severity::Error, format!("{} cannot be written: {error}.", path.display())),
-        };
-        surroundings.actions.push(Action::Tell(severity, text));
+    match dialogs.answer(export).or_else(|| dialogs.answer(import))? {
+        Exchanged::Read(Ok(value)) => return Some(value),
+        Exchanged::Read(Err(error)) => surroundings.actions.push(Action::Tell(Severity::Error, error)),
+        Exchanged::Written(severity, text) => surroundings.actions.push(Action::Tell(severity, text)),
     }
-    let path = surroundings.tools.dialogs.answer(import)?;
-    match read(&path, decl) {
-        Ok(value) => Some(value),
-        Err(error) => {
-            surroundings.actions.push(Action::Tell(Severity::Error, format!("{}: {error}", path.display())));
-            None
-        }
+    None
+}
+
+fn problem(path: &Path, error: &str) -> String {
+    format!("{}: {error}", path.display())
+}
+
+fn write(path: &Path, json: &str) -> Exchanged {
+    match std::fs::write(path, json) {
+        Ok(()) => Exchanged::Written(Severity::Note, format!("wrote {}", path.display())),
+        Err(error) => Exchanged::Written(Severity::Error, format!("{} cannot be written: {error}.", path.display())),
     }
 }
 

@@ -24,6 +24,7 @@ impl PropertiesPanel {
                 volume: upstream::volume(session.network(), &session.engine.results.outputs, id),
                 failure: session.engine.results.report.failed.get(id),
                 folder: session.document.path().and_then(Path::parent),
+                chooser: &session.chooser,
                 tools: &mut self.tools,
                 actions: &mut actions,
             };

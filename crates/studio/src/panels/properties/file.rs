@@ -5,8 +5,8 @@ use std::path::Path;
 use egui::{RichText, Ui};
 use rayloom_network::{PropertyDecl, PropertyKind};
 
-use super::dialog::Question;
 use super::editor::Surroundings;
+use crate::dialogs::Question;
 
 /// Shows a file; the new path if the user chose one.
 pub(super) fn show(
@@ -34,7 +34,7 @@ pub(super) fn show(
     if response.on_hover_text(shown).clicked() {
         let save_as = save.then(|| name.as_deref().unwrap_or("picture.png"));
         let question = Question { name: &decl.label, extensions, folder, save_as };
-        surroundings.tools.dialogs.ask(who, ui.ctx(), &question);
+        surroundings.tools.dialogs.ask(who, ui.ctx(), surroundings.chooser, &question, |path| path);
     }
     if clearable && ui.small_button("✖").on_hover_text("No file").clicked() {
         changed = Some(String::new());

@@ -4,7 +4,6 @@
 mod action;
 mod camera;
 mod choice;
-mod dialog;
 mod editor;
 mod exchange;
 mod exposed;
@@ -145,6 +144,7 @@ fn show_processor(
         volume: upstream::volume(session.network(), &session.engine.results.outputs, id),
         failure: session.engine.results.report.failed.get(id),
         folder: session.document.path().and_then(std::path::Path::parent),
+        chooser: &session.chooser,
         tools,
         actions,
     };

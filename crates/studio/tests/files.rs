@@ -1,0 +1,180 @@
+//! Documents and their files: nothing is lost without a question, nothing waits for a dialog or a disk.
+
+mod window;
+
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
+
+use egui::{Key, Modifiers, ViewportCommand, ViewportEvent};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use rayloom_network::Network;
+use rayloom_studio::{Chooser, Options, Studio};
+use window::{keep_picture, project, studio, wait_for, wait_until};
+
+type Window = Harness<'static, Studio>;
+
+/// Answers dialogs with the file that is set, and waits for ever while there is none, as a user may.
+#[derive(Clone, Default)]
+struct Hand(Arc<Mutex<Option<PathBuf>>>);
+
+impl Hand {
+    fn choose(&self, path: &Path) {
+        *self.0.lock().expect("a hand") = Some(path.to_owned());
+    }
+
+    fn chooser(&self) -> Chooser {
+        let chosen = self.0.clone();
+        Chooser::new(move |_| match chosen.lock().expect("a hand").clone() {
+            Some(path) => Box::pin(std::future::ready(Some(path))),
+            None => Box::pin(std::future::pending()),
+        })
+    }
+}
+
+fn add_canvas(window: &mut Window, id: &'static str) {
+    let session = &mut window.state_mut().session;
+    assert!(session.edit("add", |network: &mut Network| network.add("canvas", id).map(|_| ())));
+    window.run_steps(2);
+}
+
+fn command(window: &mut Window, key: Key) {
+    window.key_press_modifiers(Modifiers::COMMAND, key);
+    window.run_steps(3);
+}
+
+fn sent(window: &Window, command: &ViewportCommand) -> bool {
+    window.output().viewport_output.values().any(|output| output.commands.contains(command))
+}
+
+fn processors(studio: &Studio) -> usize {
+    studio.session.network().processors().count()
+}
+
+#[test]
+fn opening_and_saving_go_through_dialogs_that_the_window_does_not_wait_for() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let hand = Hand::default();
+    let mut window = studio(Options { chooser: hand.chooser(), ..Options::default() });
+    window.run_steps(2);
+    // A dialog that stays open: the window goes on.
+    command(&mut window, Key::O);
+    add_canvas(&mut window, "early");
+    let file = folder.path().join("mine.json");
+    hand.choose(&file);
+    command(&mut window, Key::S);
+    wait_until(&mut window, |studio| !studio.session.document.is_modified());
+    assert_eq!(window.state().session.document.path(), Some(file.as_path()));
+    assert!(std::fs::read_to_string(&file).expect("saved").contains("early"));
+    add_canvas(&mut window, "late");
+    command(&mut window, Key::S);
+    wait_until(&mut window, |studio| !studio.session.document.is_modified());
+    assert!(std::fs::read_to_string(&file).expect("saved").contains("late"));
+    hand.choose(&tiny(folder.path()));
+    command(&mut window, Key::O);
+    wait_until(&mut window, |studio| studio.session.network().name == "Tiny");
+    // What cannot be read is told, and the document stays.
+    let broken = folder.path().join("broken.json");
+    std::fs::write(&broken, "{\"rayloom\": 1, \"processors\": [").expect("written");
+    hand.choose(&broken);
+    command(&mut window, Key::O);
+    wait_for(&mut window, "this is not JSON");
+    assert_eq!(window.state().session.network().name, "Tiny");
+    // What cannot be written is told, and the changes stay unsaved.
+    add_canvas(&mut window, "last");
+    hand.choose(&folder.path().join("nowhere").join("x.json"));
+    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    wait_for(&mut window, "cannot be saved here");
+    assert!(window.state().session.document.is_modified());
+}
+
+#[test]
+fn leaving_unsaved_changes_asks_to_save_or_discard_or_stay() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("kept.json");
+    let hand = Hand::default();
+    hand.choose(&file);
+    let mut window = studio(Options { chooser: hand.chooser(), ..Options::default() });
+    window.run_steps(2);
+    add_canvas(&mut window, "a");
+    command(&mut window, Key::N);
+    wait_for(&mut window, "Save the changes of this network?");
+    keep_picture(&mut window, "unsaved_changes");
+    window.get_by_label("Cancel").click();
+    window.run_steps(3);
+    assert_eq!(processors(window.state()), 1);
+    command(&mut window, Key::N);
+    window.run_steps(2);
+    window.get_by_label("Discard").click();
+    wait_until(&mut window, |studio| processors(studio) == 0);
+    add_canvas(&mut window, "b");
+    command(&mut window, Key::N);
+    window.run_steps(2);
+    window.get_by_label("Save").click();
+    wait_until(&mut window, |studio| processors(studio) == 0);
+    assert!(std::fs::read_to_string(&file).expect("saved").contains("\"b\""));
+    assert!(window.query_by_label_contains("Save the changes").is_none());
+}
+
+#[test]
+fn the_window_stays_open_until_the_changes_are_decided_about() {
+    let mut window = studio(Options::default());
+    window.run_steps(2);
+    add_canvas(&mut window, "a");
+    let close = |window: &mut Window| {
+        let id = window.input().viewport_id;
+        window.input_mut().viewports.entry(id).or_default().events.push(ViewportEvent::Close);
+        window.step();
+    };
+    close(&mut window);
+    assert!(sent(&window, &ViewportCommand::CancelClose), "the window closes with what is not saved");
+    window.input_mut().viewports.values_mut().for_each(|viewport| viewport.events.clear());
+    wait_for(&mut window, "lost by quitting");
+    window.run_steps(2);
+    window.get_by_label("Discard").click();
+    window.run_steps(3);
+    close(&mut window);
+    assert!(!sent(&window, &ViewportCommand::CancelClose), "the window does not close although the user decided");
+}
+
+#[test]
+fn a_dropped_network_opens_and_a_dropped_volume_becomes_a_source() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = studio(Options::default());
+    window.run_steps(2);
+    drop_file(&mut window, &project("data/brainsmall.volume.json"));
+    wait_until(&mut window, |studio| processors(studio) == 1);
+    let source = window.state().session.network().processors().next().expect("a source").type_id().to_owned();
+    assert_eq!(source, "volume_source");
+    window.state_mut().session.document.undo();
+    let network = tiny(folder.path());
+    drop_file(&mut window, &network);
+    wait_until(&mut window, |studio| studio.session.network().name == "Tiny");
+    assert_eq!(window.state().session.document.path(), Some(network.as_path()));
+}
+
+/// A network file that takes no time to evaluate.
+fn tiny(folder: &Path) -> PathBuf {
+    let path = folder.join("tiny.json");
+    std::fs::write(&path, r#"{"rayloom": 1, "name": "Tiny", "processors": []}"#).expect("written");
+    path
+}
+
+fn drop_file(window: &mut Window, path: &Path) {
+    window.input_mut().dropped_files.push(Arc::new(Dropped(path.to_owned())));
+    window.run_steps(3);
+}
+
+/// A file from the desktop.
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
