@@ -22,6 +22,8 @@ impl Workbench {
     /// A chain on a generated volume: `field` with its parameters, `dims` and `extent` as one JSON object.
     pub fn of_generator(properties: &Json) -> Self {
         let mut bench = Self::chain("volume_generator");
+        // The field brings its parameters with it.
+        bench.put("source.field", properties["field"].clone());
         for (id, value) in properties.as_object().into_iter().flatten() {
             bench.put(&format!("source.{id}"), value.clone());
         }

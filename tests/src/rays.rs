@@ -1,5 +1,6 @@
 //! The rays of a picture in float64, and transfer functions whose extinction is a formula.
 
+use glam::DVec3;
 use rayloom_reference::Camera;
 use rayloom_reference::ray::{AxisBox, Ray, Segment};
 use rayloom_volume::{Knot, TransferFunction, ValueRange, Volume};
@@ -16,6 +17,13 @@ pub struct Chord {
     pub segment: Segment,
     /// Its length in world units.
     pub length: f64,
+}
+
+impl Chord {
+    /// The world position half way through the box.
+    pub fn middle(&self) -> DVec3 {
+        self.ray.at(0.5 * (self.segment.from + self.segment.to))
+    }
 }
 
 /// The chord of every pixel in the part `clip` (texture coordinates) of a volume, row by row; `None` for rays that pass by.

@@ -89,3 +89,12 @@ pub const STRETCHED_NORMAL: f64 = 1e-4;
 pub const FAINTEST: f64 = 3e-4;
 /// E41: opacity of a spike between entries of a pre-integrated table of 256, whose means are interpolated.
 pub const SPIKE: f64 = 1e-3;
+/// T14, T15: gradients, normalised values a voxel. The two values of a difference are rounded by 6e-8 each, and places by
+/// 1e-6 voxels of which a tenth shows.
+pub const DIFFERENCE: f64 = 5e-7;
+/// T16: what linear interpolation loses of the signal at least, rms.
+pub const MARSCHNER_LOBB_LINEAR: f64 = 0.02;
+/// T16: values interpolated in f32 from places that are rounded by 1e-6 voxels, in a field with slopes of 0.2 a voxel.
+pub const INTERPOLATED: f64 = 2e-6;
+/// I4: rounding of what is left of a ray, beside the error that was asked for.
+pub const TERMINATION: f64 = 5e-7;

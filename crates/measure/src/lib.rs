@@ -19,6 +19,7 @@ mod measurements;
 mod output;
 pub mod pareto;
 mod plan;
+pub mod probe;
 mod report;
 mod run;
 mod scene;

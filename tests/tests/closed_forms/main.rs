@@ -4,7 +4,11 @@
 //! observed order of convergence is held, too. Grids are clipped to the box of their voxel centres where a formula needs a
 //! field that is linear up to the end: in the outer half voxel fields are constant.
 
+mod atoms;
 mod blobs;
+mod checkerboard;
+mod points;
+mod profiles;
 mod projections;
 mod ramps;
 mod slabs;

@@ -8,7 +8,7 @@ use serde_json::json;
 use crate::{SIZE, assert_shows, difference, function};
 
 /// A lopsided thing in a box around the origin.
-fn thing(dims: [u32; 3]) -> Grid {
+pub fn thing(dims: [u32; 3]) -> Grid {
     Grid::of_world(dims, Grid::centered(dims, DVec3::from_array(dims.map(f64::from))), |p| {
         let blob = |center: DVec3, sigma: f64| (-(p - center).length_squared() / (2.0 * sigma * sigma)).exp();
         blob(DVec3::new(-3.0, 2.0, 1.0), 4.0)

@@ -1,8 +1,10 @@
 //! What must not change a picture: skipping empty space (I1), the directions of the voxel axes (I5, I6), cutting the volume in
-//! two (I8), transparent voxels around it (I12).
+//! two (I8), transparent voxels around it (I12); and what may change it only so much: early termination (I4), a camera that is
+//! not quite parallel (I10), denser material (I11). Units of length (I7) and of values (I9) are among the extremes.
 
 mod axes;
 mod cuts;
+mod limits;
 mod skipping;
 
 use rayloom_tests::Picture;
