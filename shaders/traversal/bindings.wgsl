@@ -29,6 +29,10 @@
 /// rays, then samples taken and samples contributing, each as low and high word.
 @group(0) @binding(12) var<storage, read_write> counters: array<atomic<u32>, 6>;
 #endif
+#if sample_map
+/// Per ray: samples taken, samples contributing, 0, and 1 where the ray meets the volume.
+@group(0) @binding(13) var sample_map: texture_storage_2d<rgba32float, write>;
+#endif
 #each output
 #if half_targets
 @group(0) @binding(OUT_COLOR_BINDING) var OUT_color: texture_storage_2d<rgba16float, write>;

@@ -96,7 +96,7 @@ fn last_stretch(ray: Ray) -> Sample {
     return s;
 }
 #endif
-#if statistics
+#if counting
 
 /// Whether a sample counts as contributing: visible medium, or, where nothing is classified in the loop, any sample.
 fn contributes(s: Sample) -> bool {

@@ -72,7 +72,7 @@ fn traverse(@builtin(global_invocation_id) id: vec3u) {
 #each output
     var OUT_state = OUT_begin();
 #end
-#if statistics
+#if counting
     var taken = 0u;
     var contributing = 0u;
 #endif
@@ -103,7 +103,7 @@ fn traverse(@builtin(global_invocation_id) id: vec3u) {
             s.medium = classify(s);
             visible = s.medium.w > 0.0;
             index += 1u;
-#if statistics
+#if counting
             taken += 1u;
 #endif
         }
@@ -139,11 +139,11 @@ fn traverse(@builtin(global_invocation_id) id: vec3u) {
         previous = s.value;
         previous_along = s.along;
 #endif
-#if statistics
+#if counting
         taken += 1u;
 #endif
 #endif
-#if statistics
+#if counting
         contributing += select(0u, 1u, contributes(s));
 #endif
 #each output
@@ -169,5 +169,9 @@ fn traverse(@builtin(global_invocation_id) id: vec3u) {
 #end
 #if statistics
     count_samples(ray, taken, contributing);
+#endif
+#if sample_map
+    let met = select(0.0, 1.0, ray.count > 0u);
+    textureStore(sample_map, id.xy, vec4f(f32(taken), f32(contributing), 0.0, met));
 #endif
 }

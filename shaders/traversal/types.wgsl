@@ -31,6 +31,7 @@ struct Frame {
     /// Largest label, and the span of values that the label texture's 0..1 stands for.
     label_minimum: f32,
     label_span: f32,
+    jitter_seed: u32,
 }
 
 /// A ray in volume coordinates.
@@ -46,6 +47,10 @@ struct Ray {
     step_length: f32,
     /// Unit vector towards the viewer, world space.
     view: vec3f,
+#if jitter
+    /// How far the lattice is moved towards the entry point, in steps, at least 0 and less than 1.
+    shift: f32,
+#endif
 }
 
 /// A sample on a ray. Fields that nothing reads are never computed.

@@ -34,13 +34,14 @@ struct Look {
     compositing: &'static str,
     method: fn(f64) -> Method,
     shaded: bool,
+    jitter: Option<u32>,
     sampling: (&'static str, Sampling),
     gradient: (&'static str, GradientOperator),
 }
 
 const fn look(name: &'static str, compositing: &'static str, method: fn(f64) -> Method, shaded: bool) -> Look {
     let sampling = ("filtered", Sampling::Trilinear);
-    Look { name, compositing, method, shaded, sampling, gradient: ("central", GradientOperator::Central) }
+    Look { name, compositing, method, shaded, jitter: None, sampling, gradient: ("central", GradientOperator::Central) }
 }
 
 const LOOKS: [Look; 5] = [
@@ -115,6 +116,7 @@ impl Subject {
         Scene {
             method: (look.method)(self.isovalue),
             shading: look.shaded.then_some(shading),
+            jitter: look.jitter,
             sampling: look.sampling.1,
             gradient: look.gradient.1,
             ..Scene::new(volume, function, camera, SIZE)
@@ -136,6 +138,8 @@ impl Subject {
         self.bench.put("traversal.gradient", json!(look.gradient.0));
         self.bench.put("traversal.shading", json!(if look.shaded { "blinn_phong" } else { "none" }));
         self.bench.put("traversal.compositing", json!(look.compositing));
+        self.bench.put("traversal.jitter", json!(look.jitter.is_some()));
+        self.bench.put("traversal.jitter_seed", json!(look.jitter.unwrap_or(0)));
         if look.compositing == "isosurface" {
             let [r, g, b] = SURFACE;
             self.bench.put("traversal.refinement", json!("bisection"));
@@ -221,6 +225,18 @@ fn brain_of_described_raw_data() {
 #[test]
 fn anisotropic_ball_of_floats() {
     judge_all(Subject::ball());
+}
+
+#[test]
+fn jittered_samples() {
+    let mut subject = Subject::ball();
+    let volume = subject.bench.volume();
+    let [above, _, inside, _] = views(&volume);
+    for (seed, look) in [(0, LOOKS[0]), (77, LOOKS[2]), (5, LOOKS[3])] {
+        for view in [&above, &inside] {
+            subject.judge(Look { jitter: Some(seed), ..look }, view);
+        }
+    }
 }
 
 #[test]

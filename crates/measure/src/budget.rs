@@ -67,6 +67,7 @@ pub(crate) fn budget(
         switch("storage of the volume", chain.source.as_deref(), "precision", json!("32-bit")),
         switch("storage of entry and exit points", Some(&chain.view), "format", json!("32-bit")),
         switch("storage of the picture", traversal, "target", json!("32-bit")),
+        switch("jitter", traversal, "jitter", json!(false)),
         switch("early ray termination", traversal, "termination_error", json!(0.0)),
         switch("empty-space skipping", traversal, "skipping", json!("none")),
     ];
@@ -81,8 +82,7 @@ pub(crate) fn budget(
         "the table of the transfer function (1024 entries; 256 x 256 for pre-integration), which is part of the last row or of \
          the quadrature"
             .to_owned(),
-        "the form of the opacity and jitter: opacities are always 1 - exp(-x), and samples are never jittered, so neither \
-         adds an error"
+        "the form of the opacity: opacities are always 1 - exp(-x), which adds no error"
             .to_owned(),
         "pixels: every pixel is one ray, here and in the reference".to_owned(),
     ];

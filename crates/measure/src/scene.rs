@@ -25,6 +25,8 @@ pub struct Subject {
     camera: Camera,
     size: [u32; 2],
     rate: f64,
+    pixel_rate: f64,
+    jitter: Option<u32>,
     reference_length: f64,
     method: Method,
     classification: TransferFunction,
@@ -80,6 +82,8 @@ impl Subject {
             camera: camera(&view),
             size: view.size,
             rate: properties.f64("sampling_rate")?,
+            pixel_rate: properties.f64("pixel_rate")?,
+            jitter: jitter(&properties)?,
             reference_length: reference_length(&properties, &chain.image.item, &volume, method)?,
             method,
             classification,
@@ -98,6 +102,7 @@ impl Subject {
             sampling: self.sampling,
             clip: self.clip,
             rate: self.rate,
+            jitter: self.jitter,
             reference_length: self.reference_length,
             method: self.method,
             shading: self.shading,
@@ -115,6 +120,8 @@ impl Subject {
         };
         surface(self.method) == surface(other.method)
             && same_values(&self.volume, &other.volume)
+            // Fewer rays than pixels are a price; the mean of several rays is another picture than that of one.
+            && self.pixel_rate.max(1.0) == other.pixel_rate.max(1.0)
             && (self.channel, self.sampling, self.gradient, self.size)
                 == (other.channel, other.sampling, other.gradient, other.size)
             && (self.clip, self.camera, self.shading) == (other.clip, other.camera, other.shading)
@@ -328,6 +335,11 @@ fn camera(view: &View) -> Camera {
     Camera { eye: position.into(), focus: focus.into(), up: up.into(), projection, near }
 }
 
+fn jitter(properties: &Properties) -> Refusable<Option<u32>> {
+    let seed = properties.int("jitter_seed")? as u32;
+    Ok(properties.bool("jitter")?.then_some(seed))
+}
+
 fn own_samples(properties: &Properties, volume: &Volume, method: Method) -> Refusable<Option<Refusal>> {
     let classification = properties.text("classification")?;
     if method == Method::Dvr && classification.starts_with("preintegrated") {
@@ -335,6 +347,11 @@ fn own_samples(properties: &Properties, volume: &Volume, method: Method) -> Refu
             "pre-integrated classification looks at segments, not samples; draw the exact reference or classify by \
              `transfer_function`"
                 .into(),
+        )));
+    }
+    if properties.f64("pixel_rate")? != 1.0 {
+        return Ok(Some(Refusal(
+            "a pixel is not one ray there; set pixel_rate to 1 or draw the exact reference".into(),
         )));
     }
     let most = properties.int("max_samples")? as f64;

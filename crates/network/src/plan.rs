@@ -65,8 +65,11 @@ impl Plan {
         let default = request.size.or(largest).unwrap_or(FALLBACK_SIZE);
         loop {
             for id in self.order.iter().rev() {
-                let consumers = network.outputs(id).filter_map(|connection| self.size.get(&connection.to.processor));
-                let asked = consumers.chain(self.size.get(id)).copied().reduce(max);
+                let consumers = network.outputs(id).filter_map(|connection| {
+                    let consumer = &connection.to.processor;
+                    Some(scaled(*self.size.get(consumer)?, upstream_scale(network, consumer)))
+                });
+                let asked = consumers.chain(self.size.get(id).copied()).reduce(max);
                 self.size.insert(id.clone(), asked.unwrap_or(default));
             }
             let meeting: Vec<_> =
@@ -88,8 +91,10 @@ impl Plan {
             .map(|connection| connection.from.processor.as_str())
             .collect();
         let largest = images.iter().filter_map(|source| self.size.get(*source)).copied().reduce(max)?;
-        let own = self.size.get(id).copied()?;
-        (images.len() > 1 && max(own, largest) != own).then_some(largest)
+        let scale = upstream_scale(network, id);
+        let asked = scaled(*self.size.get(id)?, scale);
+        let own = largest.map(|side| (f64::from(side) / scale).ceil() as u32);
+        (images.len() > 1 && max(asked, largest) != asked).then_some(own)
     }
 
     fn enlarge(&mut self, id: &str, size: [u32; 2]) {
@@ -100,6 +105,19 @@ impl Plan {
 
 fn max(a: [u32; 2], b: [u32; 2]) -> [u32; 2] {
     [a[0].max(b[0]), a[1].max(b[1])]
+}
+
+/// By how much a processor multiplies its render size for what feeds it.
+fn upstream_scale(network: &Network, id: &str) -> f64 {
+    let scale = |processor: &Processor| {
+        let property = processor.declaration()?.scales_render_size.as_deref()?;
+        processor.properties().f64(property).ok()
+    };
+    network.processor(id).and_then(scale).unwrap_or(1.0)
+}
+
+fn scaled(size: [u32; 2], scale: f64) -> [u32; 2] {
+    size.map(|side| ((f64::from(side) * scale).round() as u32).max(1))
 }
 
 fn is_selected(processor: &Processor, sinks: &Sinks) -> bool {

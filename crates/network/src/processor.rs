@@ -25,6 +25,8 @@ pub struct Declaration {
     pub sink: bool,
     /// Whether its result depends on the render size that travels upstream; only then does a new size run it again.
     pub uses_render_size: bool,
+    /// The float property, if any, by which the render size is multiplied on its way upstream.
+    pub scales_render_size: Option<String>,
 }
 
 impl Declaration {
@@ -72,6 +74,13 @@ impl Declaration {
     #[must_use]
     pub fn uses_render_size(mut self) -> Self {
         self.uses_render_size = true;
+        self
+    }
+
+    /// Asks of what feeds it the render size times a float property of this id.
+    #[must_use]
+    pub fn scales_render_size(mut self, property: impl Into<String>) -> Self {
+        self.scales_render_size = Some(property.into());
         self
     }
 

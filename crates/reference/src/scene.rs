@@ -70,6 +70,8 @@ pub struct Scene<'a> {
     pub shading: Option<BlinnPhong>,
     /// How gradients for the lighting are taken.
     pub gradient: GradientOperator,
+    /// Seed of the jitter of the sample lattice, see [`crate::same_samples::jitter`]; `None` for none.
+    pub jitter: Option<u32>,
     /// Opacity at which [`Method::Dvr`] stops following a ray; what is accumulated stays as it is.
     pub early_termination: Option<f64>,
 }
@@ -91,6 +93,7 @@ impl<'a> Scene<'a> {
             classification,
             shading: None,
             gradient: GradientOperator::default(),
+            jitter: None,
             early_termination: None,
         }
     }

@@ -19,8 +19,12 @@ pub struct Choice {
     pub outputs: [Option<Arc<str>>; MAX_OUTPUTS],
     /// Stop when no output can change by more than the user allows.
     pub early_termination: bool,
-    /// Count rays and samples.
+    /// Count rays and samples of the whole picture.
     pub statistics: bool,
+    /// Store the samples of every ray in an image.
+    pub sample_map: bool,
+    /// Move the lattice of samples by a random share of a step, pixel by pixel.
+    pub jitter: bool,
     /// Store colours as 16-bit instead of 32-bit floats.
     pub half_targets: bool,
     /// The channel that is classified, 0..=3.
@@ -275,6 +279,9 @@ impl<'a> Used<'a> {
             }),
         );
         set("statistics", choice.statistics);
+        set("sample_map", choice.sample_map);
+        set("counting", choice.statistics || choice.sample_map);
+        set("jitter", choice.jitter);
         set("half_targets", choice.half_targets);
         set(&format!("channel_{}", choice.channel), true);
         set(&format!("channels_{}", choice.channels), true);
@@ -302,6 +309,8 @@ pub fn legal_choices(library: &Library) -> BTreeSet<Choice> {
         outputs: Default::default(),
         early_termination: true,
         statistics: false,
+        sample_map: false,
+        jitter: false,
         half_targets: false,
         channel: 0,
         channels: 1,

@@ -74,6 +74,8 @@ fn every_set_of_outputs_is_valid_with_every_switch() {
                         outputs: [first.clone(), second.clone(), third.clone()],
                         early_termination: switches & 1 == 0,
                         statistics: switches & 2 == 0,
+                        sample_map: switches & 1 == 0,
+                        jitter: switches == 3,
                         half_targets: switches & 2 != 0,
                         channel: switches,
                         channels: switches + 1,

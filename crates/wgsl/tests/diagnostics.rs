@@ -23,6 +23,8 @@ fn choice(library: &Library, slots: &[(Slot, &str)], output: &str) -> Choice {
         outputs: [Some(path(Slot::Compositing, output)), None, None],
         early_termination: true,
         statistics: false,
+        sample_map: false,
+        jitter: false,
         half_targets: false,
         channel: 0,
         channels: 1,

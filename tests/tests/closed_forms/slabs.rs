@@ -33,8 +33,8 @@ fn t1_a_homogeneous_slab_has_one_opacity_at_every_step() {
         let askew = Camera::perspective(DVec3::new(-1.4, 0.9, 1.1) * length, DVec3::ZERO, 40.0);
         for rate in [0.13, 0.37, 1.0, 2.3, 7.77, 61.0] {
             bench.put("traversal.sampling_rate", json!(rate));
-            for reference_length in [1.0, 0.3] {
-                bench.put("traversal.reference_length", json!(reference_length));
+            for (reference_length, jitter) in [(1.0, false), (0.3, false), (1.0, true)] {
+                bench.put("traversal.reference_length", json!(reference_length)).put("traversal.jitter", json!(jitter));
                 bench.classify(&homogeneous(tau * reference_length, [1.0; 3]));
                 for (camera, worst) in [&along, &askew].into_iter().zip(&mut worst) {
                     let error = opacity_error(&mut bench, camera, tau);
@@ -96,13 +96,13 @@ fn t2_white_in_a_white_furnace_is_white() {
         bench.put("traversal.classification", json!(classification));
         for skipping in ["none", "distance"] {
             bench.put("traversal.skipping", json!(skipping));
-            for rate in [0.3, 1.0, 3.7] {
-                bench.put("traversal.sampling_rate", json!(rate));
+            for (rate, jitter) in [(0.3, false), (1.0, false), (1.0, true), (3.7, true)] {
+                bench.put("traversal.sampling_rate", json!(rate)).put("traversal.jitter", json!(jitter));
                 let front = bench.render([64, 64]);
                 assert_varied(&front);
                 for [r, g, b, a] in &front.color {
                     let bits = [r, g, b].map(|c| c.to_bits());
-                    assert_eq!(bits, [a.to_bits(); 3], "{classification}, {skipping}, rate {rate}");
+                    assert_eq!(bits, [a.to_bits(); 3], "{classification}, {skipping}, rate {rate}, jitter {jitter}");
                 }
                 let residual = widened(&front).map(furnace_residual).fold(0.0, f64::max);
                 assert_eq!(residual, 0.0);

@@ -135,6 +135,9 @@ fn i1_changes_no_bit_in_any_classification() {
                 );
             }
         }
+        let jittered = [("classification", json!("transfer_function")), ("jitter", json!(true))];
+        assert_neutral(&mut bench, &format!("{subject}, jitter"), &jittered);
+        bench.put("traversal.jitter", json!(false));
         assert_neutral(
             &mut bench,
             &format!("{subject}, threshold"),

@@ -10,7 +10,7 @@ use rayloom_wgsl::{Choice, Library, MAX_OUTPUTS, Slot};
 use super::memory::Memory;
 use super::skipping::{Question, WORTHWHILE};
 use super::snippets::PLACES;
-use super::{Inputs, OUTPORTS};
+use super::{Inputs, OUTPORTS, SAMPLES};
 use crate::{Context, Data};
 
 /// What will be assembled.
@@ -39,9 +39,11 @@ pub(super) fn plan<'a>(
     let channel = channel(job, inputs)?;
     let mut snippets = BTreeMap::new();
     let mut outputs: [Option<Arc<str>>; MAX_OUTPUTS] = Default::default();
+    // Samples are those that the first image takes where no other is wanted.
+    let only_samples = !OUTPORTS.iter().any(|outport| job.wants(outport));
     for place in PLACES {
         match place.output {
-            Some(output) if !job.wants(OUTPORTS[output]) => {}
+            Some(output) if !job.wants(OUTPORTS[output]) && !(only_samples && output == 0) => {}
             Some(output) => outputs[output] = place.path(&mut library, job.properties)?,
             None => {
                 snippets.extend(place.path(&mut library, job.properties)?.map(|path| (place.slot, path)));
@@ -53,6 +55,8 @@ pub(super) fn plan<'a>(
         outputs,
         early_termination: job.properties.f64("termination_error")? > 0.0,
         statistics: context.count_samples,
+        sample_map: job.wants(SAMPLES),
+        jitter: job.properties.bool("jitter")?,
         half_targets: job.properties.text("target")? == "16-bit",
         channel,
         channels: volume.channels,

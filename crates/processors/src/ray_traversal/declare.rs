@@ -6,8 +6,8 @@ use rayloom_network::{
 use rayloom_volume::{LabelTable, TransferFunction, TransferFunction2D, ValueRange};
 use rayloom_wgsl::{Library, Slot};
 
-use super::OUTPORTS;
 use super::snippets::{PLACES, Place};
+use super::{OUTPORTS, SAMPLES};
 
 /// Upper bound of the samples on one ray.
 pub(super) const MOST_SAMPLES: i64 = 1 << 24;
@@ -18,7 +18,8 @@ pub(super) fn declaration(library: &Library) -> Declaration {
             "Walks the ray of every pixel from its entry to its exit point. What happens at a sample is up to the snippets \
              in its slots; the shader is assembled from them and holds nothing that they do not need.",
         )
-        .uses_render_size();
+        .uses_render_size()
+        .scales_render_size("pixel_rate");
     let declaration = ports(declaration);
     let declaration =
         PLACES.iter().fold(declaration, |declaration, place| declaration.property(snippet(library, place)));
@@ -52,7 +53,12 @@ fn ports(declaration: Declaration) -> Declaration {
                 .help("Premultiplied colour with view depth. An output that nothing uses is not even compiled."),
         );
     }
-    declaration
+    declaration.output(
+        OutportDecl::new(SAMPLES, "Samples", image(ImageKind::Data)).help(
+            "For every ray the samples taken (red), those of them that contribute (green), and 1 in alpha where the ray meets \
+             the volume. Counted only where something is connected.",
+        ),
+    )
 }
 
 fn label(place: &Place) -> String {
@@ -102,6 +108,26 @@ fn sampling(declaration: Declaration) -> Declaration {
                 .logarithmic()
                 .unit("samples per voxel")
                 .help("Samples a voxel along the ray. The error of smooth scenes falls with its square; time grows with it."),
+        )
+        .property(
+            PropertyDecl::float("pixel_rate", "Pixel rate", 1.0)
+                .range(0.25, 4.0)
+                .logarithmic()
+                .unit("rays per pixel edge")
+                .help(
+                    "Rays along each edge of a pixel: at 2 four rays a pixel are averaged, at 0.5 one ray serves four pixels, with \
+                     linear interpolation between rays.",
+                ),
+        )
+        .property(
+            PropertyDecl::bool("jitter", "Jitter", false)
+                .level(Level::Shader)
+                .help("Moves the samples of every ray by a random share of a step: rings of undersampling become noise."),
+        )
+        .property(
+            PropertyDecl::int("jitter_seed", "Jitter seed", 0)
+                .int_range(0, i64::from(i32::MAX))
+                .help("Another number gives other noise, the same number the same noise."),
         )
         .property(
             PropertyDecl::int("max_samples", "Most samples", 1 << 20)

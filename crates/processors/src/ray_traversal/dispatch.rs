@@ -39,6 +39,8 @@ type Targets = [Option<Target>; OUTPORTS.len()];
 /// What a run leaves behind.
 pub(super) struct Drawn {
     pub targets: Targets,
+    /// Samples of every ray, when they are wanted.
+    pub samples: Option<Arc<Texture>>,
     /// Rays, samples and contributing samples, when they were counted.
     pub counted: Option<Map<String, serde_json::Value>>,
 }
@@ -66,17 +68,23 @@ impl Pass<'_> {
     pub fn run(&self, context: &mut Context, memory: &mut Memory) -> Result<Drawn, ProcessError> {
         let targets = self.targets(context)?;
         let counters = self.counters(&context.gpu)?;
+        let samples = self.samples(context)?;
         let frame = self.frame(&context.gpu)?;
         let bindings = &self.shader.interface.bindings;
         let resources = bindings
             .iter()
             .map(|field| {
-                Ok((field.binding, self.resource(&field.name, context, memory, &frame, &targets, counters.as_ref())?))
+                let resource = match (field.name.as_str(), &counters, &samples) {
+                    ("counters", Some(counters), _) => Resource::Buffer(counters.clone()),
+                    ("sample_map", _, Some(samples)) => Resource::Texture(samples.clone()),
+                    (name, ..) => self.resource(name, context, memory, &frame, &targets)?,
+                };
+                Ok((field.binding, resource))
             })
             .collect::<Result<Vec<_>, ProcessError>>()?;
         self.dispatch(context, &resources)?;
         let counted = counters.map(|counters| counts(&context.gpu, &counters)).transpose()?;
-        Ok(Drawn { targets, counted })
+        Ok(Drawn { targets, samples, counted })
     }
 
     /// Colour and depth textures of the outputs in use.
@@ -86,10 +94,10 @@ impl Pass<'_> {
         let mut targets = Targets::default();
         let used = self.plan.choice.outputs.iter().flatten().count() as u32;
         let most = context.gpu.limits.max_storage_textures_per_shader_stage;
-        if 2 * used > most {
+        let needed = 2 * used + u32::from(self.plan.choice.sample_map);
+        if needed > most {
             return Err(ProcessError::new(format!(
-                "{used} outputs need {} storage textures, but this device allows {most} (maxStorageTexturesPerShaderStage); use fewer outputs of this ray traversal",
-                2 * used
+                "the outputs in use need {needed} storage textures, but this device allows {most} (maxStorageTexturesPerShaderStage); use fewer outputs of this ray traversal"
             )));
         }
         for (index, target) in targets.iter_mut().enumerate() {
@@ -104,6 +112,11 @@ impl Pass<'_> {
 
     fn counters(&self, gpu: &Gpu) -> Result<Option<wgpu::Buffer>, GpuError> {
         self.plan.choice.statistics.then(|| gpu.storage("sample counters", &[0u32; 6])).transpose()
+    }
+
+    fn samples(&self, context: &mut Context) -> Result<Option<Arc<Texture>>, GpuError> {
+        let size = self.inputs.view.size;
+        self.plan.choice.sample_map.then(|| context.color_target(super::SAMPLES, size)).transpose()
     }
 
     fn range(&self) -> ValueRange {
@@ -142,7 +155,6 @@ impl Pass<'_> {
         memory: &mut Memory,
         frame: &Frame,
         targets: &Targets,
-        counters: Option<&wgpu::Buffer>,
     ) -> Result<Resource, ProcessError> {
         let gpu = &context.gpu;
         let properties = self.job.properties;
@@ -191,7 +203,6 @@ impl Pass<'_> {
                 }
                 None => return Err(unknown(name)),
             },
-            "counters" => Resource::Buffer(counters.cloned().ok_or_else(|| unknown(name))?),
             _ => self.output(name, targets)?,
         })
     }

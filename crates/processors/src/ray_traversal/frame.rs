@@ -29,7 +29,8 @@ pub(super) struct Frame {
     gradient_scale: f32,
     pub label_minimum: f32,
     pub label_span: f32,
-    padding: [f32; 2],
+    jitter_seed: u32,
+    padding: f32,
 }
 
 /// Above every opacity: no ray stops early.
@@ -67,7 +68,8 @@ impl Frame {
             gradient_scale: (range.width() / spacing / gradient_maximum(function)) as f32,
             label_minimum: 0.0,
             label_span: 1.0,
-            padding: [0.0; 2],
+            jitter_seed: properties.int("jitter_seed")? as u32,
+            padding: 0.0,
         })
     }
 }

@@ -7,6 +7,7 @@ mod frame;
 mod memo;
 mod memory;
 mod parameters;
+mod resample;
 mod skipping;
 mod snippets;
 mod splines;
@@ -26,6 +27,8 @@ pub use snippets::{snippet_library, user_folder};
 
 /// Outports, in the order of the shader's outputs.
 const OUTPORTS: [&str; 3] = ["image", "image2", "image3"];
+/// The outport of the map of samples.
+const SAMPLES: &str = "samples";
 
 /// The processor type.
 pub struct RayTraversal {
@@ -138,11 +141,15 @@ impl RayTraversal {
 
         let mut outputs = Outputs::new();
         for (outport, target) in OUTPORTS.iter().zip(drawn.targets) {
-            if let Some(dispatch::Target { color, depth }) = target {
-                let image =
-                    Image { color, depth: Some(depth), kind: ImageKind::Color, view: Some(inputs.view.clone()) };
+            if let Some(target) = target {
+                let (dispatch::Target { color, depth }, view) = resample::resample(context, job, target, inputs.view)?;
+                let image = Image { color, depth: Some(depth), kind: ImageKind::Color, view: Some(view) };
                 outputs = outputs.with(*outport, image.into());
             }
+        }
+        if let Some(color) = drawn.samples {
+            let image = Image { color, depth: None, kind: ImageKind::Data, view: Some(inputs.view.clone()) };
+            outputs = outputs.with(SAMPLES, image.into());
         }
         outputs.notes = notes;
         if let Some(counted) = drawn.counted {

@@ -32,6 +32,7 @@ pub(super) fn key(reference: Reference, scene: &Scene<'_>, part: Option<Rectangl
         classification,
         shading,
         gradient,
+        jitter,
         early_termination,
     } = scene;
     let sampled = reference == Reference::SameSamples;
@@ -43,6 +44,7 @@ pub(super) fn key(reference: Reference, scene: &Scene<'_>, part: Option<Rectangl
     if sampled {
         digest.number(*rate);
         digest.optional(*early_termination);
+        digest.optional(jitter.map(f64::from));
     }
     digest.camera(camera);
     digest.method(*method, sampled);

@@ -8,7 +8,7 @@ mod lattice;
 mod project;
 
 pub use crate::prepared::SurfaceHit;
-pub use lattice::{Lattice, LatticeSample};
+pub use lattice::{Lattice, LatticeSample, jitter};
 
 use crate::image::{Image, PixelResult, Rectangle};
 use crate::prepared::Prepared;
@@ -69,7 +69,8 @@ impl<'a> Renderer<'a> {
         let passage = self.prepared.passage(x, y)?;
         let span = passage.segment.exit - passage.segment.entry;
         let voxels = (span * self.prepared.field.dims().as_dvec3()).length();
-        let lattice = Lattice::new(voxels, self.prepared.scene.rate);
+        let shift = self.prepared.scene.jitter.map_or(0.0, |seed| jitter(x, y, seed));
+        let lattice = Lattice::new(voxels, self.prepared.scene.rate, shift);
         // None: a corner grazed so closely that the length underflows.
         (lattice.length > 0.0).then(|| Path {
             ray: passage.ray,

@@ -1,0 +1,42 @@
+//! From rays to pixels, where a pixel is not one ray.
+
+use rayloom_gpu::wgpu::TextureFormat;
+use rayloom_network::{Job, ProcessError};
+
+use super::dispatch::Target;
+use crate::image_pass::{Bind, ImagePass};
+use crate::{Context, Data, View};
+
+const SHADER: &str = include_str!("../../../../shaders/image/resample.wgsl");
+
+/// The picture of one ray a texel, made one of the size that was asked for, with the view of that. At a pixel rate of 1 it is
+/// handed on as it is.
+pub(super) fn resample(
+    context: &mut Context,
+    job: &Job<'_, Data>,
+    rays: Target,
+    view: &View,
+) -> Result<(Target, View), ProcessError> {
+    if job.properties.f64("pixel_rate")? == 1.0 {
+        return Ok((rays, view.clone()));
+    }
+    let format = rays.color.texture.format();
+    let pixels = Target {
+        color: context.pool.get(&context.gpu, "resampled image", job.size, format)?,
+        depth: context.depth_target("resampled depth", job.size)?,
+    };
+    let wgsl = match format {
+        TextureFormat::Rgba16Float => SHADER.replace("rgba32float", "rgba16float"),
+        _ => SHADER.to_owned(),
+    };
+    context.run_image_pass(&ImagePass {
+        label: "pixels from rays",
+        wgsl: &wgsl,
+        entry_point: "main",
+        bindings: &[&rays.color, &rays.depth, &pixels.color, &pixels.depth].map(|texture| Bind::Texture(texture)),
+        size: job.size,
+    })?;
+    let mut view = view.clone();
+    view.size = job.size;
+    Ok((pixels, view))
+}
