@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use crate::job::{Backend, Input, Inputs, Job, Outputs, ProcessError};
 use crate::names::{Address, quoted};
-use crate::network::{Network, Processor};
+use crate::network::{Connection, Network, Processor};
 use crate::plan::Plan;
 use crate::port::Facts;
 use crate::processor::Declaration;
@@ -75,6 +75,8 @@ impl<B: Backend> Evaluator<B> {
             }
         }
         self.conclude(network, &plan, &mut report);
+        report.stale = self.outdated(network, &plan);
+        report.needed = plan.order;
         report.elapsed = start.elapsed();
         report
     }
@@ -237,6 +239,28 @@ impl<B: Backend> Evaluator<B> {
                 _ => {}
             }
         }
+    }
+
+    /// Processors outside of the plan that have a result, but another than they would give now: their properties changed, or
+    /// what feeds them, or something before that.
+    fn outdated(&self, network: &Network, plan: &Plan) -> BTreeSet<String> {
+        let mut outdated = BTreeSet::new();
+        let unneeded = network.order().into_iter().filter(|id| !plan.wanted.contains_key(*id));
+        for (processor, memory) in unneeded.filter_map(|id| Some((network.processor(id)?, self.memories.get(id)?))) {
+            let id = processor.id();
+            let mut feeding: BTreeMap<String, Vec<(Address, u64)>> = BTreeMap::new();
+            let mut follows = false;
+            for Connection { from, to } in network.inputs(id) {
+                follows |= outdated.contains(&from.processor);
+                let revision = self.memories.get(&from.processor).map_or(0, |memory| memory.revision);
+                feeding.entry(to.item.clone()).or_default().push((from.clone(), revision));
+            }
+            let changed = memory.signature.inputs != feeding || memory.signature.properties != processor.resolve().1;
+            if follows || changed || self.asked.contains_key(id) {
+                outdated.insert(id.to_owned());
+            }
+        }
+        outdated
     }
 
     fn error(&self, id: &str) -> Option<&ProcessError> {

@@ -1,6 +1,6 @@
 //! What to evaluate, and what came of it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::time::Duration;
 
@@ -125,6 +125,10 @@ impl Run {
 /// What an evaluation did.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
+    /// The processors that were needed, each after those that feed it.
+    pub needed: Vec<String>,
+    /// Processors that were not needed and whose last result is no longer what they would give now.
+    pub stale: BTreeSet<String>,
     /// The runs, in order; empty when everything was up to date.
     pub runs: Vec<Run>,
     /// Processors that were needed but are not ready, with the reasons, each a chain down to its cause.

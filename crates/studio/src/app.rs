@@ -162,6 +162,9 @@ impl Studio {
                 if ui.button("Accuracy").on_hover_text("Compare the picture with an exact one.").clicked() {
                     self.session.to_open.push(Pane::Accuracy);
                 }
+                if ui.button("Frame budget").on_hover_text("What every processor took, and why it ran.").clicked() {
+                    self.session.to_open.push(Pane::Budget);
+                }
                 if ui.button("Default layout").clicked() {
                     self.tiles = panels::default_layout();
                 }
@@ -193,9 +196,10 @@ impl Studio {
             }
             ui.separator();
             ui.label(format!("{:.0} ms", report.elapsed.as_secs_f64() * 1e3));
-            if self.session.interacting {
+            let divisor = self.session.quality.divisor();
+            if divisor > 1 {
                 ui.separator();
-                ui.label("half resolution while dragging");
+                ui.label(format!("1/{divisor} resolution while something moves"));
             }
             if let Some(message) = self.session.messages.last()
                 && message.when.elapsed().as_secs() < 10
@@ -231,7 +235,7 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
     }
 
     fn is_tab_closable(&self, tiles: &egui_tiles::Tiles<Pane>, tile: egui_tiles::TileId) -> bool {
-        matches!(tiles.get_pane(&tile), Some(Pane::Inspector(_) | Pane::Accuracy))
+        matches!(tiles.get_pane(&tile), Some(Pane::Inspector(_) | Pane::Accuracy | Pane::Budget))
     }
 
     fn simplification_options(&self) -> egui_tiles::SimplificationOptions {
@@ -242,16 +246,13 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
 impl eframe::App for Studio {
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         let context = ui.ctx().clone();
-        self.session.engine.listen();
+        self.session.begin_frame();
         if self.files.begin_frame(&mut self.session, &context) {
             self.panels = Panels::default();
         }
         for complaint in self.complaints.take() {
             self.session.tell(Severity::Error, format!("the graphics device complains: {complaint}"));
         }
-        let was_interacting = std::mem::take(&mut self.session.interacting);
-        self.session.watched.clear();
-        self.session.shown.clear();
         self.shortcuts(&context);
         if self.session.mode == Mode::Development {
             egui::Panel::top("menu").show(ui, |ui| self.menu_bar(ui));
@@ -268,17 +269,7 @@ impl eframe::App for Studio {
         for pane in std::mem::take(&mut self.session.to_open) {
             panels::open(&mut self.tiles, pane);
         }
-        if was_interacting && !self.session.interacting {
-            context.request_repaint();
-        }
-        if context.input(|input| input.pointer.any_released()) {
-            self.session.document.settle();
-        }
-        let request = self.session.request();
-        let (revision, document) = (self.session.document.revision(), &self.session.document);
-        self.session.engine.order(revision, document.network(), request);
-        self.session.display.end_frame();
-        self.session.inspection.end_frame();
+        self.session.end_frame(&context);
         context.send_viewport_cmd(egui::ViewportCommand::Title(self.title()));
     }
 }

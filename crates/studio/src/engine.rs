@@ -6,7 +6,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 
 use rayloom_gpu::{Gpu, GpuError};
-use rayloom_network::{Address, Evaluator, Network, Report, Request, Run};
+use rayloom_network::{Address, Backend, Evaluator, Facts, Job, Network, Outputs, ProcessError, Report, Request, Run};
 use rayloom_processors::{Data, Image, Runner};
 use rayloom_volume::Progress;
 
@@ -19,6 +19,7 @@ struct Order {
 
 /// What the thread says.
 enum News {
+    Running(String),
     Progress(String, Progress),
     Results(Box<Results>),
 }
@@ -26,10 +27,14 @@ enum News {
 /// What has been computed.
 #[derive(Default)]
 pub struct Results {
-    /// The order that these results belong to.
-    number: u64,
+    /// The order that these results belong to; grows with every evaluation.
+    pub number: u64,
+    /// What was asked for.
+    pub request: Request,
     /// What ran in the last evaluation, what failed, what is not ready and why.
     pub report: Report,
+    /// The report of the last evaluation in which anything ran.
+    pub frame: Report,
     /// The last run of every processor that ever ran.
     pub runs: BTreeMap<String, Run>,
     /// What is on the outports.
@@ -39,8 +44,10 @@ pub struct Results {
 }
 
 impl Results {
-    /// Where something failed, the canvases go on showing the last good picture; the failure is told beside it.
-    fn keep_pictures(&mut self, previous: Results) {
+    /// What stays from the results before: the report about work, while nothing has to be done, and where something failed the
+    /// last good picture on the canvases; the failure is told beside it.
+    fn keep(&mut self, previous: Results) {
+        self.frame = if self.report.runs.is_empty() { previous.frame } else { self.report.clone() };
         if self.report.failed.is_empty() {
             return;
         }
@@ -62,6 +69,8 @@ pub struct Engine {
     last: Option<(u64, Request)>,
     /// The latest results.
     pub results: Results,
+    /// The processor that is at work.
+    pub running: Option<String>,
     /// How far slow processors are.
     pub progress: BTreeMap<String, Progress>,
 }
@@ -82,7 +91,7 @@ impl Engine {
             let _ = progress_outbox.send(News::Progress(id.to_owned(), progress));
             progress_wake();
         }));
-        let thread = std::thread::spawn(move || work(runner, &inbox, &outbox, &wake));
+        let thread = std::thread::spawn(move || work(Telling { runner, news: outbox }, &inbox, &wake));
         Ok(Self {
             orders: Some(orders),
             news,
@@ -90,6 +99,7 @@ impl Engine {
             ordered: 0,
             last: None,
             results: Results::default(),
+            running: None,
             progress: BTreeMap::new(),
         })
     }
@@ -114,13 +124,15 @@ impl Engine {
         while let Ok(news) = self.news.try_recv() {
             heard = true;
             match news {
+                News::Running(id) => self.running = Some(id),
                 News::Progress(id, progress) => {
                     self.progress.insert(id, progress);
                 }
                 News::Results(results) => {
                     self.progress.clear();
+                    self.running = None;
                     let previous = std::mem::replace(&mut self.results, *results);
-                    self.results.keep_pictures(previous);
+                    self.results.keep(previous);
                 }
             }
         }
@@ -143,25 +155,46 @@ impl Drop for Engine {
     }
 }
 
-fn work(mut runner: Runner, orders: &Receiver<Order>, news: &Sender<News>, wake: &impl Fn()) {
+/// Runs processors and tells which.
+struct Telling {
+    runner: Runner,
+    news: Sender<News>,
+}
+
+impl Backend for Telling {
+    type Data = Data;
+
+    fn facts(&self, data: &Data) -> Facts {
+        self.runner.facts(data)
+    }
+
+    fn process(&mut self, job: &Job<'_, Data>) -> Result<Outputs<Data>, ProcessError> {
+        // No frame for its own sake: short runs need not be seen.
+        let _ = self.news.send(News::Running(job.id.to_owned()));
+        self.runner.process(job)
+    }
+}
+
+fn work(mut backend: Telling, orders: &Receiver<Order>, wake: &impl Fn()) {
     let mut evaluator = Evaluator::new();
     while let Ok(mut order) = orders.recv() {
         // A burst of edits is one evaluation: of the newest.
         while let Ok(newer) = orders.try_recv() {
             order = newer;
         }
-        let report = evaluator.evaluate(&order.network, &mut runner, &order.request);
-        runner.tidy(|id| order.network.processor(id).is_some());
+        let report = evaluator.evaluate(&order.network, &mut backend, &order.request);
+        backend.runner.tidy(|id| order.network.processor(id).is_some());
         let results = Box::new(collect(&order, report, &evaluator));
-        if news.send(News::Results(results)).is_err() {
+        if backend.news.send(News::Results(results)).is_err() {
             return;
         }
         wake();
     }
 }
 
-fn collect(order: &Order, report: Report, evaluator: &Evaluator<Runner>) -> Results {
-    let mut results = Results { number: order.number, report, ..Results::default() };
+fn collect(order: &Order, report: Report, evaluator: &Evaluator<Telling>) -> Results {
+    let (number, request) = (order.number, order.request.clone());
+    let mut results = Results { number, request, report, ..Results::default() };
     for processor in order.network.processors() {
         let id = processor.id();
         results.runs.extend(evaluator.last_run(id).map(|run| (id.to_owned(), run.clone())));

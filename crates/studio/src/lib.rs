@@ -17,6 +17,7 @@ mod inspect;
 mod later;
 mod palette;
 mod panels;
+mod quality;
 mod session;
 mod task;
 mod theme;
@@ -31,6 +32,7 @@ pub use document::Document;
 pub use engine::{Engine, Results};
 pub use inspect::{ChannelStatistics, Inspection, Pixel, Reading, Statistics, hover, statistics};
 pub use panels::Pane;
+pub use quality::Quality;
 pub use session::{Message, Mode, Session, Severity};
 pub use visualization::{Application, Exposed, Group, Preset};
 

@@ -12,6 +12,7 @@ use crate::document::Document;
 use crate::engine::Engine;
 use crate::inspect::Inspection;
 use crate::panels::Pane;
+use crate::quality::Quality;
 
 /// How the window is used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -73,8 +74,10 @@ pub struct Session {
     pub mode: Mode,
     /// Outports that panels look at in this frame; they are computed although nothing may be connected. Filled anew every frame.
     pub watched: BTreeSet<Address>,
-    /// Set by a panel in a frame in which the user drags something in a picture: pictures get smaller for the while.
+    /// Set by a panel in a frame in which the user moves something that pictures follow: they get smaller for the while.
     pub interacting: bool,
+    /// How much smaller.
+    pub quality: Quality,
     /// The canvases shown in this frame, with their sizes in pixels. Filled anew every frame.
     pub shown: BTreeMap<String, [u32; 2]>,
 }
@@ -95,6 +98,7 @@ impl Session {
             mode: Mode::default(),
             watched: BTreeSet::new(),
             interacting: false,
+            quality: Quality::default(),
             shown: BTreeMap::new(),
         }
     }
@@ -146,11 +150,35 @@ impl Session {
         }
     }
 
+    /// To be called at the start of a frame: takes in what was computed, and forgets what the frame before looked at.
+    pub fn begin_frame(&mut self) {
+        if self.engine.listen() {
+            self.quality.learn(&self.engine.results.request, &self.engine.results.report, &self.shown);
+        }
+        self.interacting = false;
+        self.watched.clear();
+        self.shown.clear();
+    }
+
+    /// To be called at the end of a frame: asks for what it looked at, and for another frame when pictures are to be refined.
+    pub fn end_frame(&mut self, context: &egui::Context) {
+        let released = context.input(|input| input.pointer.any_released());
+        if let Some(rest) = self.quality.notice(self.interacting, released, &self.shown, Instant::now()) {
+            context.request_repaint_after(rest);
+        }
+        if released {
+            self.document.settle();
+        }
+        let request = self.request();
+        self.engine.order(self.document.revision(), self.document.network(), request);
+        self.display.end_frame();
+        self.inspection.end_frame();
+    }
+
     /// What this frame wants evaluated: the canvases in sight, each at its own size, and every sink that is no canvas. While
     /// no canvas is in sight all of them count, so that mistakes are still told.
     pub fn request(&self) -> Request {
-        let divisor = if self.interacting { 2 } else { 1 };
-        let sizes = self.shown.iter().map(|(id, size)| (id.clone(), size.map(|pixels| pixels.div_ceil(divisor))));
+        let sizes = self.quality.sizes(&self.shown);
         let wanted = |sink: &Processor| sink.type_id() != CANVAS || self.shown.contains_key(sink.id());
         let sinks = match self.shown.is_empty() {
             true => Sinks::All,
@@ -158,6 +186,6 @@ impl Session {
                 Sinks::Only(self.network().processors().filter(|p| wanted(p)).map(|p| p.id().to_owned()).collect())
             }
         };
-        Request { sinks, watch: self.watched.iter().cloned().collect(), size: None, sizes: sizes.collect() }
+        Request { sinks, watch: self.watched.iter().cloned().collect(), size: None, sizes }
     }
 }

@@ -7,6 +7,8 @@ use rayloom_network::{ImageKind, PortType};
 pub const ERROR: Color32 = Color32::from_rgb(0xe0, 0x6c, 0x60);
 /// Something waits for the user.
 pub const WARNING: Color32 = Color32::from_rgb(0xd9, 0xa4, 0x41);
+/// A result of yesterday.
+pub const STALE: Color32 = Color32::from_rgb(0x9a, 0x8a, 0x6a);
 /// All is well.
 pub const READY: Color32 = Color32::from_rgb(0x6f, 0xb0, 0x7f);
 

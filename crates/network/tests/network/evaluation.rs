@@ -242,6 +242,26 @@ fn one_sink_can_be_asked_for() {
 }
 
 #[test]
+fn results_that_nothing_needs_are_told_to_be_outdated() {
+    let mut network = pipeline();
+    network.add("canvas", "other").unwrap();
+    network.connect(("filter", "image_out"), ("other", "image")).unwrap();
+    network.add("canvas", "early").unwrap();
+    network.connect(("view", "image"), ("early", "image")).unwrap();
+    let mut bench = Bench::new(network);
+    let only = |sink: &str| Request { sinks: Sinks::Only(vec![sink.into()]), ..Request::default() };
+    let stale = |report: &Report| report.stale.iter().cloned().collect::<Vec<_>>();
+    assert_eq!(stale(&bench.evaluate()), Vec::<String>::new());
+    assert_eq!(stale(&bench.with(&only("early"))), Vec::<String>::new());
+    bench.set("view", "rate", Value::Float(2.0));
+    let report = bench.with(&only("early"));
+    assert_eq!(report.needed, ["data", "proxy", "view", "early"]);
+    assert_eq!(stale(&report), ["canvas", "filter", "other"]);
+    assert_eq!(stale(&bench.with(&only("canvas"))), ["other"]);
+    assert_eq!(stale(&bench.evaluate()), Vec::<String>::new());
+}
+
+#[test]
 fn parameters_of_a_chosen_snippet_are_resolved() {
     let mut bench = Bench::new(pipeline());
     bench.evaluate();

@@ -1,6 +1,7 @@
 //! The panels: each shows one aspect of the session and edits it.
 
 mod accuracy;
+mod budget;
 pub(crate) mod canvas;
 mod dock;
 mod inspector;
@@ -32,6 +33,8 @@ pub enum Pane {
     Properties,
     /// How far the picture is from what it should be.
     Accuracy,
+    /// What the processors took for the last picture.
+    Budget,
     /// What is on an outport, kept in sight.
     Inspector(Address),
 }
@@ -46,6 +49,7 @@ impl Pane {
             Self::Messages => "Messages".into(),
             Self::Properties => "Properties".into(),
             Self::Accuracy => "Accuracy".into(),
+            Self::Budget => "Frame budget".into(),
             Self::Inspector(outport) => outport.to_string(),
         }
     }
@@ -77,6 +81,7 @@ impl Panels {
             Pane::Messages => messages::show(ui, session),
             Pane::Properties => self.properties.show(ui, session),
             Pane::Accuracy => self.accuracy.show(ui, session),
+            Pane::Budget => budget::show(ui, session),
             Pane::Inspector(outport) => self.inspectors.show(ui, session, outport),
         }
     }

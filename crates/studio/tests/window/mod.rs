@@ -22,14 +22,9 @@ pub struct Piece<F> {
 impl<F: FnMut(&mut egui::Ui, &mut Session)> eframe::App for Piece<F> {
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         let session = &mut self.studio.session;
-        session.engine.listen();
-        session.watched.clear();
-        session.shown.clear();
+        session.begin_frame();
         egui::CentralPanel::default().show(ui, |ui| (self.show)(ui, session));
-        let request = session.request();
-        session.engine.order(session.document.revision(), session.document.network(), request);
-        session.display.end_frame();
-        session.inspection.end_frame();
+        session.end_frame(ui.ctx());
     }
 }
 

@@ -35,8 +35,9 @@ impl Held {
         [canvas, processor, property]: [&str; 3],
     ) {
         let Some(Value::Camera(before)) = session.network().value(processor, property) else { return };
-        session.interacting |= response.dragged();
+
         let mut camera = before;
+        session.interacting |= response.dragged();
         drag(ui, response, shown, &mut camera);
         if response.hovered() && !ui.ctx().text_edit_focused() {
             keys(ui, session, image, &mut camera);
@@ -50,6 +51,7 @@ impl Held {
             camera = centred;
         }
         if camera != before && camera.validate().is_ok() {
+            session.interacting = true;
             session.set(processor, property, Value::Camera(camera));
         }
     }

@@ -82,6 +82,7 @@ pub(super) fn interact(ui: &egui::Ui, response: &egui::Response, shown: Rect, se
     };
     let Some(slice) = Slice::of(session.network(), processor, &data.volume, shown) else { return };
     let siblings = siblings(session.network(), processor);
+    let before = session.document.revision();
     scroll(ui, response, session, processor, data.volume.dims[slice.axes[0]]);
     let moves = response.dragged_by(PointerButton::Middle)
         || (response.dragged_by(PointerButton::Primary) && ui.input(|input| input.modifiers.shift));
@@ -92,6 +93,7 @@ pub(super) fn interact(ui: &egui::Ui, response: &egui::Response, shown: Rect, se
     } else if let Some(pointer) = response.interact_pointer_pos().filter(|_| is_held(ui, response)) {
         place(session, &slice, &siblings, pointer);
     }
+    session.interacting |= session.document.revision() != before;
     crosshair(ui, shown, session.network(), &slice, &siblings);
 }
 

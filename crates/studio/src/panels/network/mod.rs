@@ -7,7 +7,7 @@ mod geometry;
 mod menus;
 mod node;
 mod scene;
-mod state;
+pub(super) mod state;
 mod text;
 mod waiting;
 

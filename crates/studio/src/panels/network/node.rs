@@ -64,7 +64,7 @@ pub struct Card {
     pub kind: String,
     /// How it is doing.
     pub state: State,
-    /// What its last run took.
+    /// What its last run took, or that this is of yesterday.
     pub time: String,
     /// Its inports, from the top.
     pub inports: Vec<Port>,
@@ -151,9 +151,16 @@ impl Card {
         match &self.state {
             State::Running(part) => {
                 painter.circle_stroke(at, 4.0, Stroke::new(1.5, self.state.color()));
-                let start = Pos2::new(rect.left(), rect.top() + HEAD - 3.0);
-                let bar = Rect::from_min_size(start, Vec2::new(rect.width() * part.clamp(0.02, 1.0), 2.0));
-                painter.rect_filled(bar, 1.0, self.state.color());
+                if let Some(part) = part {
+                    let start = Pos2::new(rect.left(), rect.top() + HEAD - 3.0);
+                    let bar = Rect::from_min_size(start, Vec2::new(rect.width() * part.clamp(0.02, 1.0), 2.0));
+                    painter.rect_filled(bar, 1.0, self.state.color());
+                }
+            }
+            State::Stale => {
+                painter.circle_stroke(at, 4.0, Stroke::new(1.5, self.state.color()));
+                let half = Rect::from_min_max(at - Vec2::new(4.0, 0.0), at + Vec2::new(4.0, 4.0));
+                painter.with_clip_rect(half.intersect(painter.clip_rect())).circle_filled(at, 4.0, self.state.color());
             }
             State::Idle => drop(painter.circle_stroke(at, 3.5, Stroke::new(1.5, self.state.color()))),
             _ => drop(painter.circle_filled(at, 4.0, self.state.color())),

@@ -190,11 +190,15 @@ impl<'a> Scene<'a> {
             }
         };
         let run = self.session.engine.results.runs.get(id);
+        let state = State::of(self.session, id, self.waiting.contains(id));
         Card {
             title: processor.label().unwrap_or(id).to_owned(),
             kind: declaration.map_or(processor.type_id(), |d| d.label.as_str()).to_owned(),
-            state: State::of(self.session, id, self.waiting.contains(id)),
-            time: run.map(|run| short(cost(run))).unwrap_or_default(),
+            time: match state {
+                State::Stale => "stale".to_owned(),
+                _ => run.map(|run| short(cost(run))).unwrap_or_default(),
+            },
+            state,
             inports: ports.inports.iter().map(inport).collect(),
             outports: ports.outports.iter().map(outport).collect(),
             zoom: self.geometry.to_window.scaling,

@@ -13,10 +13,12 @@ use crate::theme;
 pub enum State {
     /// Its result is there.
     Ready,
-    /// It is at work; how far, 0 to 1.
-    Running(f32),
-    /// Nothing needs its result.
+    /// It is at work; how far, 0 to 1, if it tells.
+    Running(Option<f32>),
+    /// Nothing needs its result, so it has not run.
     Idle,
+    /// It has a result, but what goes into it changed since, and nothing needs it.
+    Stale,
     /// It cannot run yet.
     Waiting,
     /// It failed.
@@ -29,11 +31,15 @@ impl State {
         let engine = &session.engine;
         let report = &engine.results.report;
         if let Some(progress) = engine.progress.get(id) {
-            return Self::Running(progress.done as f32 / progress.total.max(1) as f32);
+            return Self::Running(Some(progress.done as f32 / progress.total.max(1) as f32));
+        }
+        if engine.running.as_deref() == Some(id) {
+            return Self::Running(None);
         }
         match report.failed.get(id) {
             Some(error) => Self::Failed(error.to_string()),
             None if waits || report.not_ready.contains_key(id) => Self::Waiting,
+            None if report.stale.contains(id) => Self::Stale,
             None if engine.results.runs.contains_key(id) => Self::Ready,
             None => Self::Idle,
         }
@@ -45,6 +51,7 @@ impl State {
             Self::Ready => theme::READY,
             Self::Running(_) => theme::port_color(rayloom_network::PortType::Image(rayloom_network::ImageKind::Color)),
             Self::Idle => Color32::from_gray(0x80),
+            Self::Stale => theme::STALE,
             Self::Waiting => theme::WARNING,
             Self::Failed(_) => theme::ERROR,
         }
@@ -56,6 +63,7 @@ impl State {
             Self::Ready => "ready",
             Self::Running(_) => "running",
             Self::Idle => "idle",
+            Self::Stale => "stale",
             Self::Waiting => "waiting",
             Self::Failed(_) => "failed",
         }
@@ -100,8 +108,15 @@ pub fn tooltip(ui: &mut Ui, session: &Session, id: &str) {
             }
         }
         State::Failed(error) => drop(ui.colored_label(state.color(), error)),
-        State::Running(part) => drop(ui.colored_label(state.color(), format!("running, {:.0} %", part * 100.0))),
-        State::Idle => drop(ui.label("Idle: no canvas or export needs its result.")),
+        State::Running(part) => {
+            let far = part.map(|part| format!(", {:.0} %", part * 100.0)).unwrap_or_default();
+            ui.colored_label(state.color(), format!("running{far}"));
+        }
+        State::Idle => drop(ui.label("Idle: no canvas in sight and no export needs its result.")),
+        State::Stale => drop(ui.colored_label(
+            state.color(),
+            "Stale: what goes into it changed since it ran, and no canvas in sight and no export needs it now.",
+        )),
         State::Ready => {}
     }
     for advice in advice(session, processor) {

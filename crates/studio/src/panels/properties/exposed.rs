@@ -6,7 +6,7 @@ use rayloom_network::PropertyDecl;
 
 use super::editor::Surroundings;
 use super::outline::Entry;
-use super::{PropertiesPanel, action, row, upstream};
+use super::{PropertiesPanel, row, upstream};
 use crate::session::Session;
 
 impl PropertiesPanel {
@@ -31,6 +31,6 @@ impl PropertiesPanel {
             let entry = Entry { decl: decl.clone(), parameters: Vec::new(), text: None };
             ui.push_id(id, |ui| row::show_entry(ui, &entry, &mut surroundings));
         }
-        action::apply(ui, session, actions);
+        self.apply(ui, session, actions);
     }
 }

@@ -74,7 +74,11 @@ impl PropertiesPanel {
                 }
             });
         });
-        // Pictures follow a dragged value more readily when they are small.
+        self.apply(ui, session, actions);
+    }
+
+    /// Pictures follow a dragged value more readily when they are small.
+    fn apply(&mut self, ui: &egui::Ui, session: &mut Session, actions: Vec<Action>) {
         let held = ui.input(|input| input.pointer.any_down());
         self.dragging = held && (self.dragging || actions.iter().any(|action| matches!(action, Action::Set(..))));
         session.interacting |= self.dragging;

@@ -1,0 +1,234 @@
+//! Prints how well the studio keeps up: pictures a second while the camera is dragged, the longest frame of everything that could
+//! hold the window up, what hovering costs, and a large network. A window without a screen, on the real device.
+//!
+//!     cargo bench -p rayloom-studio --bench responsiveness
+
+#[path = "../tests/window/mod.rs"]
+mod window;
+
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use egui::{Event, Key, Modifiers, PointerButton, Pos2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use rayloom_network::Value;
+use rayloom_studio::{Chooser, Mode, Options, Session, Studio};
+
+type Window = Harness<'static, Studio>;
+
+/// Time between two frames of a screen.
+const FRAME: Duration = Duration::from_micros(16_667);
+/// Pointer positions of the drag.
+const MOVES: usize = 240;
+
+fn main() {
+    drag("networks/brain.json");
+    drag("networks/apps/mri_viewer.json");
+    frames();
+    hovering();
+    large_network();
+}
+
+fn open(network: &Path, mode: Mode) -> Window {
+    let mut window = window::studio(Options { network: Some(network.to_owned()), mode, ..Options::default() });
+    settle(&mut window);
+    window
+}
+
+/// Frames until nothing is left to be computed; the longest of them.
+fn settle(window: &mut Window) -> Duration {
+    let mut longest = Duration::ZERO;
+    let mut quiet = 0;
+    while quiet < 20 {
+        longest = longest.max(step(window));
+        quiet = if window.state().session.engine.is_busy() { 0 } else { quiet + 1 };
+    }
+    longest
+}
+
+/// One frame of the window, and the rest of its time; how long it took without painting.
+fn step(window: &mut Window) -> Duration {
+    let start = Instant::now();
+    window.step();
+    let took = start.elapsed();
+    std::thread::sleep(FRAME.saturating_sub(took));
+    took
+}
+
+fn press(window: &Window, pos: Pos2, pressed: bool) {
+    window.event(Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE });
+}
+
+/// What the first canvas shows, to be told from what it showed before.
+fn picture(session: &Session) -> Option<(usize, [u32; 2])> {
+    let image = session.engine.results.canvases.get("canvas")?;
+    Some((Arc::as_ptr(image) as usize, image.size()))
+}
+
+/// Drags the camera of the canvas in a window of 1280 x 800 in visualization mode, painting every frame as a window would.
+fn drag(network: &str) {
+    let mut window = open(&window::project(network), Mode::Visualization);
+    let middle = window.get_by_label("canvas canvas").rect().center();
+    let full = picture(&window.state().session).map(|(_, size)| size).unwrap_or_default();
+    window.hover_at(middle);
+    step(&mut window);
+    press(&window, middle, true);
+    let (mut pictures, mut sizes, mut frames) = (Vec::new(), Vec::new(), Vec::new());
+    let mut last = picture(&window.state().session);
+    for number in 0..MOVES {
+        let angle = number as f32 / MOVES as f32 * std::f32::consts::TAU;
+        window.hover_at(middle + 120.0 * egui::vec2(angle.sin(), 0.5 - 0.5 * angle.cos()));
+        let start = Instant::now();
+        frames.push(step(&mut window));
+        window.render().expect("painted");
+        std::thread::sleep(FRAME.saturating_sub(start.elapsed()));
+        let now = picture(&window.state().session);
+        if now.map(|(id, _)| id) != last.map(|(id, _)| id) {
+            pictures.push(Instant::now());
+            sizes.extend(now.map(|(_, size)| size));
+            last = now;
+        }
+    }
+    press(&window, middle, false);
+    let released = Instant::now();
+    window.step();
+    while picture(&window.state().session).is_none_or(|(_, size)| size != full) {
+        step(&mut window);
+    }
+    let refined = released.elapsed();
+    let mut rates: Vec<f64> = pictures.windows(2).map(|pair| 1.0 / (pair[1] - pair[0]).as_secs_f64()).collect();
+    rates.sort_by(f64::total_cmp);
+    let at = |part: f64| rates.get((part * rates.len() as f64) as usize).copied().unwrap_or_default();
+    let longest = frames.iter().max().copied().unwrap_or_default();
+    println!(
+        "{network}: {} pictures, {:.1} a second (5 %: {:.1}, 95 %: {:.1}); {:?} of {full:?} pixels at last; full size {} after \
+         letting go; longest frame {}",
+        pictures.len(),
+        at(0.5),
+        at(0.05),
+        at(0.95),
+        sizes.last().copied().unwrap_or_default(),
+        ms(refined),
+        ms(longest),
+    );
+}
+
+/// The longest frame of everything that could hold the window up.
+fn frames() {
+    let folder = std::env::temp_dir().join(format!("rayloom-responsiveness-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let (brain, saved) = (window::project("networks/brain.json"), folder.join("saved.json"));
+    let chooser = Chooser::new(move |question| {
+        let file = if question.save_as.is_some() { saved.clone() } else { brain.clone() };
+        Box::pin(std::future::ready(Some(file)))
+    });
+    let mut window = window::studio(Options { chooser, ..Options::default() });
+    settle(&mut window);
+    let set = |window: &mut Window, property: &str, value: &str| {
+        window.state_mut().session.set("traversal", property, Value::Text(value.into()));
+    };
+    let command = |window: &mut Window, key| window.key_press_modifiers(Modifiers::COMMAND, key);
+    measure(&mut window, "opening networks/brain.json", |window| command(window, Key::O));
+    measure(&mut window, "selecting the traversal", |window| {
+        window.state_mut().session.selection = ["traversal".to_owned()].into();
+    });
+    measure(&mut window, "another shading", |window| set(window, "shading", "toon"));
+    measure(&mut window, "another gradient", |window| set(window, "gradient", "sobel"));
+    measure(&mut window, "another compositing", |window| set(window, "compositing", "mip"));
+    measure(&mut window, "back to compositing", |window| set(window, "compositing", "dvr"));
+    measure(&mut window, "editing a snippet", |window| {
+        let source = include_str!("../../../shaders/shading/toon.wgsl").replace("return", "/* edited */ return");
+        set(window, "shading.text", &source);
+    });
+    measure(&mut window, "saving", |window| command(window, Key::S));
+    measure(&mut window, "undoing it all", |window| while window.state_mut().session.document.undo() {});
+    measure(&mut window, "visualization mode", |window| window.key_press(Key::F5));
+    std::fs::remove_dir_all(&folder).expect("removed");
+}
+
+fn measure(window: &mut Window, what: &str, act: impl FnOnce(&mut Window)) {
+    let start = Instant::now();
+    act(window);
+    let itself = start.elapsed();
+    let longest = settle(window);
+    println!("{what}: longest frame {}, settled after {}", ms(itself.max(longest)), ms(start.elapsed()));
+}
+
+/// What there is in memory and what runs with and without something under the pointer.
+fn hovering() {
+    let mut window = open(&window::project("networks/brain.json"), Mode::Development);
+    let report = |window: &mut Window, what: &str| {
+        let longest = settle(window);
+        let mut frames = Vec::new();
+        let before = window.state().session.engine.results.number;
+        for _ in 0..60 {
+            frames.push(step(window));
+        }
+        frames.sort();
+        let session = &window.state().session;
+        let (pictures, bytes) = session.display.load();
+        let evaluations = session.engine.results.number - before;
+        println!(
+            "{what}: {pictures} pictures of {:.1} MB, {evaluations} evaluations, frame {} (longest {})",
+            bytes as f64 * 1e-6,
+            ms(frames[30]),
+            ms(longest)
+        );
+    };
+    report(&mut window, "pointer on nothing");
+    for (from, to) in [("traversal.image", "background.front"), ("source.volume", "traversal.volume")] {
+        let end = |label: String| window.get_by_label(&label).rect().center();
+        let middle = end(format!("output {from}")).lerp(end(format!("input {to}")), 0.5);
+        window.hover_at(middle);
+        report(&mut window, &format!("pointer on the wire from {from}"));
+    }
+    window.hover_at(Pos2::new(2.0, 2.0));
+    report(&mut window, "pointer on nothing again");
+}
+
+/// A network of 300 processors and 500 wires, panned and zoomed.
+fn large_network() {
+    let folder = std::env::temp_dir().join(format!("rayloom-large-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let file = folder.join("large.json");
+    let node = |i: usize| {
+        let position = [(i % 20) * 220, (i / 20) * 140];
+        serde_json::json!({"id": format!("n{i}"), "type": "compositor", "position": position})
+    };
+    let first = (0..299).map(|i| format!("n{i}.image -> n{}.first", i + 1));
+    let second = (0..201).map(|i| format!("n{i}.image -> n{}.second", i + 2));
+    let network = serde_json::json!({
+        "rayloom": 1,
+        "processors": (0..300).map(node).collect::<Vec<_>>(),
+        "connections": first.chain(second).collect::<Vec<_>>(),
+    });
+    std::fs::write(&file, network.to_string()).expect("written");
+    let mut window = open(&file, Mode::Development);
+    let on_canvas = window.get_by_label_contains("processor n150").rect().center();
+    window.hover_at(on_canvas);
+    for (name, zoom) in [("everything in view", 1.0), ("zoomed in", 4.0)] {
+        window.event(Event::Zoom(zoom));
+        window.run_steps(5);
+        let mut frames: Vec<Duration> = (0..60)
+            .map(|frame| {
+                let scroll = if frame % 2 == 0 { 9.0 } else { -7.0 };
+                window.event(Event::MouseWheel {
+                    unit: egui::MouseWheelUnit::Point,
+                    delta: egui::Vec2::splat(scroll),
+                    phase: egui::TouchPhase::Move,
+                    modifiers: Modifiers::NONE,
+                });
+                step(&mut window)
+            })
+            .collect();
+        frames.sort();
+        println!("300 nodes, 500 wires, panned, {name}: {} a frame (95 %: {})", ms(frames[30]), ms(frames[57]));
+    }
+    std::fs::remove_dir_all(&folder).expect("removed");
+}
+
+fn ms(time: Duration) -> String {
+    format!("{:.1} ms", time.as_secs_f64() * 1e3)
+}
