@@ -165,6 +165,9 @@ impl Studio {
                 if ui.button("Frame budget").on_hover_text("What every processor took, and why it ran.").clicked() {
                     self.session.to_open.push(Pane::Budget);
                 }
+                if ui.button("Application").on_hover_text("What visualization mode shows").clicked() {
+                    self.session.to_open.push(Pane::Application);
+                }
                 if ui.button("Default layout").clicked() {
                     self.tiles = panels::default_layout();
                 }
@@ -235,7 +238,7 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
     }
 
     fn is_tab_closable(&self, tiles: &egui_tiles::Tiles<Pane>, tile: egui_tiles::TileId) -> bool {
-        matches!(tiles.get_pane(&tile), Some(Pane::Inspector(_) | Pane::Accuracy | Pane::Budget))
+        matches!(tiles.get_pane(&tile), Some(Pane::Inspector(_) | Pane::Accuracy | Pane::Budget | Pane::Application))
     }
 
     fn simplification_options(&self) -> egui_tiles::SimplificationOptions {

@@ -34,7 +34,7 @@ pub use inspect::{ChannelStatistics, Inspection, Pixel, Reading, Statistics, hov
 pub use panels::Pane;
 pub use quality::Quality;
 pub use session::{Message, Mode, Session, Severity};
-pub use visualization::{Application, Exposed, Group, Preset};
+pub use visualization::{Application, Change, Exposed, Group, Layout, Preset};
 
 /// Opens the window and runs until it is closed.
 ///

@@ -1,6 +1,7 @@
 //! The panels: each shows one aspect of the session and edits it.
 
 mod accuracy;
+mod application;
 mod budget;
 pub(crate) mod canvas;
 mod dock;
@@ -35,6 +36,8 @@ pub enum Pane {
     Accuracy,
     /// What the processors took for the last picture.
     Budget,
+    /// What visualization mode shows.
+    Application,
     /// What is on an outport, kept in sight.
     Inspector(Address),
 }
@@ -50,6 +53,7 @@ impl Pane {
             Self::Properties => "Properties".into(),
             Self::Accuracy => "Accuracy".into(),
             Self::Budget => "Frame budget".into(),
+            Self::Application => "Application".into(),
             Self::Inspector(outport) => outport.to_string(),
         }
     }
@@ -64,6 +68,7 @@ pub struct Panels {
     accuracy: accuracy::AccuracyPanel,
     inspectors: inspector::Inspectors,
     properties: properties::PropertiesPanel,
+    application: application::ApplicationPanel,
     visualization: Visualization,
 }
 
@@ -82,6 +87,7 @@ impl Panels {
             Pane::Properties => self.properties.show(ui, session),
             Pane::Accuracy => self.accuracy.show(ui, session),
             Pane::Budget => budget::show(ui, session),
+            Pane::Application => self.application.show(ui, session),
             Pane::Inspector(outport) => self.inspectors.show(ui, session, outport),
         }
     }

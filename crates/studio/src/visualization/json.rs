@@ -3,7 +3,10 @@
 use rayloom_network::Address;
 use serde_json::{Map, Value as Json, json};
 
-use super::{Application, Exposed, Group, Preset};
+use super::{Application, Exposed, Group, Layout, Preset};
+
+/// Layouts by their names in the file.
+const LAYOUTS: [(Layout, &str); 2] = [(Layout::Grid, "grid"), (Layout::FirstLarge, "first_large")];
 
 /// Reads an application; what cannot be understood is left out and becomes a sentence.
 pub(super) fn parse(json: &Json) -> (Application, Vec<String>) {
@@ -65,7 +68,7 @@ impl Reader<'_> {
 
     fn application(&mut self, json: &Json) -> Application {
         let path = "visualization";
-        let fields = ["canvases", "groups", "presets", "locked"];
+        let fields = ["canvases", "layout", "groups", "presets", "locked"];
         if json.is_null() {
             return Application::default();
         }
@@ -73,6 +76,7 @@ impl Reader<'_> {
         let at = |field: &str| format!("{path}.{field}");
         let canvases = self.list(&at("canvases"), object.get("canvases")).iter();
         let canvases = canvases.filter_map(|canvas| self.text(&at("canvases"), Some(canvas))).collect();
+        let layout = self.layout(&at("layout"), object.get("layout"));
         let groups = self.list(&at("groups"), object.get("groups")).iter().enumerate();
         let groups = groups.filter_map(|(i, group)| self.group(&format!("{path}.groups[{i}]"), group)).collect();
         let presets = self.list(&at("presets"), object.get("presets")).iter().enumerate();
@@ -85,7 +89,19 @@ impl Reader<'_> {
                 false
             }
         };
-        Application { canvases, groups, presets, locked }
+        Application { canvases, layout, groups, presets, locked }
+    }
+
+    fn layout(&mut self, path: &str, json: Option<&Json>) -> Layout {
+        let named = json.map(|json| LAYOUTS.into_iter().find(|(_, name)| json == name).ok_or(json));
+        match named {
+            None => Layout::default(),
+            Some(Ok((layout, _))) => layout,
+            Some(Err(found)) => {
+                self.complain(path, found, &LAYOUTS.map(|(_, name)| name).join(" or "));
+                Layout::default()
+            }
+        }
     }
 
     fn group(&mut self, path: &str, json: &Json) -> Option<Group> {
@@ -141,6 +157,11 @@ pub(super) fn write(application: &Application) -> Json {
     if !application.canvases.is_empty() {
         json.insert("canvases".into(), json!(application.canvases));
     }
+    if let Some((_, name)) = LAYOUTS.iter().find(|(layout, _)| *layout == application.layout)
+        && application.layout != Layout::default()
+    {
+        json.insert("layout".into(), json!(name));
+    }
     if !application.groups.is_empty() {
         json.insert("groups".into(), application.groups.iter().map(write_group).collect());
     }
@@ -180,6 +201,7 @@ mod tests {
     fn what_is_written_is_read_back() {
         let json = json!({
             "canvases": ["a", "b"],
+            "layout": "first_large",
             "groups": [{"title": "T", "properties": [
                 {"property": "traversal.sampling_rate", "label": "Quality", "range": [0.5, 4.0]},
                 {"property": "view.camera"}
@@ -197,6 +219,7 @@ mod tests {
     fn what_is_wrong_is_named_and_the_rest_counts() {
         let (application, problems) = parse(&json!({
             "canvas": [],
+            "layout": "spiral",
             "groups": [{"title": 3, "properties": [{"property": "no address"}, {"label": "x"}, {"property": "a.b", "range": [2, 1]}]}],
             "presets": {},
             "locked": true
@@ -206,7 +229,8 @@ mod tests {
         assert_eq!(
             problems,
             [
-                "visualization: found the field `canvas`, expected only canvases, groups, presets, locked",
+                "visualization: found the field `canvas`, expected only canvases, layout, groups, presets, locked",
+                "visualization.layout: found \"spiral\", expected grid or first_large",
                 "visualization.groups[0].title: found 3, expected a text",
                 "visualization.groups[0].properties[0].property: `no address` is not an address; write `processor.item`, each of letters, digits, `_` or `-`",
                 "visualization.groups[0].properties[1]: no `property`; name one as `processor.property`",

@@ -5,6 +5,7 @@
 //! ```json
 //! {
 //!   "canvases": ["canvas"],
+//!   "layout": "first_large",
 //!   "groups": [
 //!     {"title": "Sampling", "properties": [
 //!       {"property": "traversal.sampling_rate", "label": "Quality", "range": [0.5, 4]}
@@ -15,12 +16,15 @@
 //! }
 //! ```
 //!
-//! Every field may be left out. No `canvases` means all of them. `label` and `range` replace those of the declaration; a range
+//! Every field may be left out. No `canvases` means all of them; `layout` is `grid` unless it is `first_large`. `label` and `range` replace those of the declaration; a range
 //! only narrows what sliders reach. A locked file cannot be switched to development mode from the window.
 
+mod change;
 mod json;
+mod preset;
 mod show;
 
+pub use change::{Change, Place, follow_rename};
 pub use show::Visualization;
 
 use std::collections::BTreeMap;
@@ -33,12 +37,24 @@ use serde_json::Value as Json;
 pub struct Application {
     /// Ids of the canvases, in the order shown; all of them if empty.
     pub canvases: Vec<String>,
+    /// How the canvases lie.
+    pub layout: Layout,
     /// Properties that users may set.
     pub groups: Vec<Group>,
     /// Sets of values to choose from.
     pub presets: Vec<Preset>,
     /// Whether the window stays in visualization mode.
     pub locked: bool,
+}
+
+/// How canvases lie in the window.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Layout {
+    /// In rows of about square cells.
+    #[default]
+    Grid,
+    /// The first one large, the others beside or below it.
+    FirstLarge,
 }
 
 /// Properties under a heading.
@@ -79,6 +95,11 @@ impl Application {
         (application, problems)
     }
 
+    /// What in the file cannot be read, a sentence each; the next change drops it.
+    pub fn unreadable(network: &Network) -> Vec<String> {
+        json::parse(&network.visualization).1
+    }
+
     /// The form in the file.
     pub fn to_json(&self) -> Json {
         json::write(self)
@@ -96,12 +117,10 @@ impl Application {
                 problems.push(format!("visualization.groups (`{}`): {problem}", group.title));
             }
         }
-        for (preset, address, value) in
-            self.presets.iter().flat_map(|preset| preset.values.iter().map(move |(a, v)| (preset, a, v)))
-        {
-            if let Some(problem) = refusal(network, address, value) {
-                problems.push(format!("visualization.presets (`{}`): {problem}", preset.name));
-            }
+        for preset in &self.presets {
+            let refused = preset.refused(network).into_iter();
+            problems
+                .extend(refused.map(|(_, problem)| format!("visualization.presets (`{}`): {problem}", preset.name)));
         }
         problems
     }
@@ -140,12 +159,12 @@ impl Exposed {
 }
 
 /// Ids of the processors that show an image.
-fn canvases(network: &Network) -> impl Iterator<Item = &str> {
+pub fn canvases(network: &Network) -> impl Iterator<Item = &str> {
     network.processors().filter(|processor| processor.type_id() == "canvas").map(|processor| processor.id())
 }
 
 /// The declaration of a property, or a sentence about what is missing.
-fn declared(network: &Network, address: &Address) -> Result<PropertyDecl, String> {
+pub fn declared(network: &Network, address: &Address) -> Result<PropertyDecl, String> {
     let suggest = |names: Vec<&str>| match names.is_empty() {
         true => String::new(),
         false => format!("; did you mean {}?", names.join(" or ")),
@@ -159,14 +178,4 @@ fn declared(network: &Network, address: &Address) -> Result<PropertyDecl, String
         let names = closest(&address.item, decls.iter().map(|decl| decl.id.as_str()));
         format!("`{}` has no property `{}` at the moment{}", address.processor, address.item, suggest(names))
     })
-}
-
-/// Why a property cannot have a value. A value for a property that another choice brings with it may well be fine.
-fn refusal(network: &Network, address: &Address, value: &Json) -> Option<String> {
-    let mut trial = network.clone();
-    match declared(network, address) {
-        Ok(_) => trial.set_from_json(&address.processor, &address.item, value).err().map(|error| error.to_string()),
-        Err(problem) if network.processor(&address.processor).is_none() => Some(problem),
-        Err(_) => None,
-    }
 }

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use egui::{Rect, UiBuilder, Vec2};
-use rayloom_network::{Address, EditError, Network, PropertyDecl};
+use rayloom_network::{Address, PropertyDecl};
 use serde_json::Value as Json;
 
-use super::{Application, Preset};
+use super::{Application, Layout, Preset};
 use crate::panels::canvas::CanvasPanel;
 use crate::panels::properties::PropertiesPanel;
 use crate::session::Session;
@@ -17,6 +17,9 @@ use crate::theme;
 const SIDE: f32 = 320.0;
 /// Gap between canvases, points.
 const GAP: f32 = 2.0;
+
+/// Share of the window that a large canvas takes.
+const LARGE: f32 = 0.7;
 
 /// What the mode remembers.
 #[derive(Default)]
@@ -118,42 +121,24 @@ impl Visualization {
             }
         });
         if let Some(preset) = chosen {
-            session.edit(&format!("preset {}", preset.name), |network| apply(network, &preset));
+            session.edit(&format!("preset {}", preset.name), |network| preset.apply(network));
         }
     }
 
-    /// The canvases in rows of about square cells.
+    /// The canvases, as the author arranged them.
     fn grid(&mut self, ui: &mut egui::Ui, session: &mut Session) {
         let canvases: Vec<String> =
             self.application.shown_canvases(session.network()).into_iter().map(ToOwned::to_owned).collect();
         let area = ui.available_rect_before_wrap();
-        let cells = cells(area, canvases.len());
+        let cells = match self.application.layout {
+            Layout::Grid => cells(area, canvases.len()),
+            Layout::FirstLarge => first_large(area, canvases.len()),
+        };
         for (canvas, cell) in canvases.into_iter().zip(cells) {
             let panel = self.canvases.entry(canvas.clone()).or_default();
             ui.scope_builder(UiBuilder::new().max_rect(cell).id_salt(&canvas), |ui| {
                 panel.show_one(ui, session, &canvas)
             });
-        }
-    }
-}
-
-/// Sets all values of a preset. Choices come first, since they bring other properties with them: what is refused for want of
-/// a property is tried again after the others.
-fn apply(network: &mut Network, preset: &Preset) -> Result<(), EditError> {
-    let mut left: Vec<_> = preset.values.iter().collect();
-    loop {
-        let before = left.len();
-        let mut refused = None;
-        left.retain(|(address, value)| {
-            let set = network.set_from_json(&address.processor, &address.item, value);
-            let failed = set.is_err();
-            refused = set.err().or(refused.take());
-            failed
-        });
-        match refused {
-            None => return Ok(()),
-            Some(error) if left.len() == before => return Err(error),
-            Some(_) => {}
         }
     }
 }
@@ -172,4 +157,26 @@ fn cells(area: Rect, count: usize) -> Vec<Rect> {
         Rect::from_min_size(area.min + place * size, size).shrink(if count > 1 { GAP / 2.0 } else { 0.0 })
     };
     (0..count).map(cell).collect()
+}
+
+/// A large cell, and the others in a column beside it, or in a row below it where the area is tall.
+fn first_large(area: Rect, count: usize) -> Vec<Rect> {
+    if count < 2 {
+        return cells(area, count);
+    }
+    let wide = area.width() >= area.height();
+    let (large, rest) = match wide {
+        true => area.split_left_right_at_fraction(LARGE),
+        false => area.split_top_bottom_at_fraction(LARGE),
+    };
+    let share = rest.size() / (count - 1) as f32;
+    let small = |index: usize| match wide {
+        true => {
+            Rect::from_min_size(rest.min + Vec2::new(0.0, share.y * index as f32), Vec2::new(rest.width(), share.y))
+        }
+        false => {
+            Rect::from_min_size(rest.min + Vec2::new(share.x * index as f32, 0.0), Vec2::new(share.x, rest.height()))
+        }
+    };
+    [large].into_iter().chain((0..count - 1).map(small)).map(|cell| cell.shrink(GAP / 2.0)).collect()
 }

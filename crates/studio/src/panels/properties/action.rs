@@ -3,6 +3,8 @@
 use rayloom_network::{Address, EditError, Network, Value};
 
 use crate::session::{Session, Severity};
+use crate::visualization::Change;
+use crate::wiring;
 
 /// Something the user did.
 pub(super) enum Action {
@@ -16,8 +18,12 @@ pub(super) enum Action {
     Unlink(Address, Address),
     /// Named a processor; an empty name takes it away.
     Name(String, String),
+    /// Gave a processor another id.
+    Rename(String, String),
     /// Selected a processor.
     Select(String),
+    /// Changed what visualization mode shows.
+    Author(Change),
     /// Something to tell.
     Tell(Severity, String),
 }
@@ -60,7 +66,14 @@ fn carry_out(session: &mut Session, action: Action) {
             let label = Some(name.trim().to_owned()).filter(|name| !name.is_empty() && *name != id);
             session.edit(&format!("name {id}"), |network: &mut Network| network.set_label(&id, label));
         }
+        Action::Rename(id, new) => {
+            let renamed = session.edit(&format!("rename {id}"), |network| wiring::rename(network, &id, &new));
+            if renamed && session.selection.remove(&id) {
+                session.selection.insert(new);
+            }
+        }
         Action::Select(id) => session.selection = [id].into(),
+        Action::Author(change) => session.author(change),
         Action::Tell(severity, text) => session.tell(severity, text),
     }
 }

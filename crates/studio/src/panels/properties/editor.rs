@@ -63,6 +63,8 @@ pub(super) struct Surroundings<'a> {
     pub folder: Option<&'a Path>,
     /// Whom to ask for files.
     pub chooser: &'a Chooser,
+    /// Whether the user edits the network, not only values.
+    pub authoring: bool,
     /// What editors remember.
     pub tools: &'a mut Tools,
     /// What the user did.

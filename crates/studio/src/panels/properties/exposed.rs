@@ -25,6 +25,7 @@ impl PropertiesPanel {
                 failure: session.engine.results.report.failed.get(id),
                 folder: session.document.path().and_then(Path::parent),
                 chooser: &session.chooser,
+                authoring: false,
                 tools: &mut self.tools,
                 actions: &mut actions,
             };

@@ -18,9 +18,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, id: &str, actions: &mut Vec<A
             response.on_hover_text(&declaration.help);
             help_mark(ui, &declaration.help);
         }
-        if processor.label().is_some() {
-            ui.label(RichText::new(id).weak().monospace().size(11.0)).on_hover_text("Its id, as `--set` takes it");
-        }
+        identity(ui, id, actions);
     });
     state(ui, session, id);
     if processor.is_placeholder() {
@@ -34,21 +32,40 @@ pub(super) fn show(ui: &mut Ui, session: &Session, id: &str, actions: &mut Vec<A
 
 /// The name, to be edited in place.
 fn name(ui: &mut Ui, id: &str, label: Option<&str>, actions: &mut Vec<Action>) {
-    let shown = label.unwrap_or(id).to_owned();
-    let key = ui.make_persistent_id("name");
-    let mut text = ui.data(|data| data.get_temp::<String>(key)).unwrap_or_else(|| shown.clone());
-    let edit = TextEdit::singleline(&mut text).id(key.with("edit")).font(egui::FontId::proportional(17.0));
-    let edit = edit.frame(egui::Frame::NONE).margin(egui::Margin::ZERO).desired_width(f32::INFINITY);
-    let edit = edit.text_color(ui.visuals().strong_text_color());
-    let response = ui.add(edit).on_hover_text("Click to rename");
+    let look = (egui::FontId::proportional(17.0), ui.visuals().strong_text_color());
+    let named = in_place(ui, "name", "Click to rename", label.unwrap_or(id), look);
+    actions.extend(named.map(|name| Action::Name(id.to_owned(), name)));
+}
+
+/// The id, to be edited in place.
+fn identity(ui: &mut Ui, id: &str, actions: &mut Vec<Action>) {
+    let look = (egui::FontId::monospace(11.0), ui.visuals().weak_text_color());
+    let help = "Its id, as `--set` takes it and files store it; click to change it";
+    let renamed = in_place(ui, "id", help, id, look);
+    actions.extend(renamed.map(|new| Action::Rename(id.to_owned(), new.trim().to_owned())));
+}
+
+/// A text that looks like a label until it is clicked; the new text when it was changed and left, but not by Escape.
+fn in_place(
+    ui: &mut Ui,
+    what: &str,
+    help: &str,
+    shown: &str,
+    (font, color): (egui::FontId, Color32),
+) -> Option<String> {
+    let key = ui.make_persistent_id(what);
+    let mut text = ui.data(|data| data.get_temp::<String>(key)).unwrap_or_else(|| shown.to_owned());
+    let edit = TextEdit::singleline(&mut text).id(key.with("edit")).frame(egui::Frame::NONE).margin(egui::Margin::ZERO);
+    let edit = edit.font(font).text_color(color).desired_width(f32::INFINITY);
+    let response = ui.add(edit).on_hover_text(help);
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_label(format!("{what} of the processor")));
     if response.has_focus() {
         ui.data_mut(|data| data.insert_temp(key, text));
-    } else {
-        if response.lost_focus() && text != shown && !ui.input(|input| input.key_pressed(egui::Key::Escape)) {
-            actions.push(Action::Name(id.to_owned(), text));
-        }
-        ui.data_mut(|data| data.remove::<String>(key));
+        return None;
     }
+    ui.data_mut(|data| data.remove::<String>(key));
+    let left = response.lost_focus() && !ui.input(|input| input.key_pressed(egui::Key::Escape));
+    (left && text != shown).then_some(text)
 }
 
 fn help_mark(ui: &mut Ui, help: &str) {

@@ -1,10 +1,12 @@
-//! The menu of a property: reset, links with properties of other processors.
+//! The menu of a property: reset, links with properties of other processors, whether visualization mode shows it.
 
 use egui::Ui;
 use rayloom_network::{Address, Network, PropertyDecl};
 
 use super::action::Action;
 use super::editor::Surroundings;
+use crate::session::Severity;
+use crate::visualization::{Application, Change};
 
 /// The menu behind a property's name.
 pub(super) fn menu(ui: &mut Ui, decl: &PropertyDecl, address: &Address, surroundings: &mut Surroundings<'_>) {
@@ -17,6 +19,11 @@ pub(super) fn menu(ui: &mut Ui, decl: &PropertyDecl, address: &Address, surround
         ui.ctx().copy_text(address.to_string());
         ui.close();
     }
+    if !surroundings.authoring {
+        return;
+    }
+    ui.separator();
+    expose(ui, address, surroundings);
     ui.separator();
     for link in surroundings.network.links() {
         if let Some(other) = link.other(address)
@@ -39,6 +46,35 @@ pub(super) fn menu(ui: &mut Ui, decl: &PropertyDecl, address: &Address, surround
             }
         }
     });
+}
+
+/// Shows the property in visualization mode, in a group to choose where there are several, or hides it there.
+fn expose(ui: &mut Ui, address: &Address, surroundings: &mut Surroundings<'_>) {
+    let (application, _) = Application::of(surroundings.network);
+    let mut change = None;
+    if application.shows(address) {
+        if ui.button("Hide in the application").clicked() {
+            change = Some(Change::Hide(address.clone()));
+        }
+    } else if application.groups.len() < 2 {
+        if ui.button("Show in the application").on_hover_text("Users of visualization mode can set it").clicked() {
+            change = Some(Change::Expose(address.clone(), 0));
+        }
+    } else {
+        ui.menu_button("Show in the application", |ui| {
+            for (index, group) in application.groups.iter().enumerate() {
+                if ui.button(&group.title).clicked() {
+                    change = Some(Change::Expose(address.clone(), index));
+                }
+            }
+        });
+    }
+    if let Some(change) = change {
+        let verb = if matches!(change, Change::Hide(_)) { "hides" } else { "shows" };
+        let text = format!("Visualization mode {verb} {address} now (View > Application).");
+        surroundings.actions.extend([Action::Author(change), Action::Tell(Severity::Note, text)]);
+        ui.close();
+    }
 }
 
 /// Properties of other processors that this one may be linked with; those of the same name first.

@@ -149,6 +149,7 @@ fn show_processor(
         failure: session.engine.results.report.failed.get(id),
         folder: session.document.path().and_then(std::path::Path::parent),
         chooser: &session.chooser,
+        authoring: true,
         tools,
         actions,
     };
