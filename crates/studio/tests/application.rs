@@ -7,7 +7,7 @@ use egui::{Key, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use rayloom_network::{Address, Value};
-use rayloom_studio::{Application, Mode, Options, Studio};
+use rayloom_studio::{Application, Chooser, Mode, Options, Studio};
 
 type Window = Harness<'static, Studio>;
 
@@ -58,7 +58,12 @@ fn expose(window: &mut Window, label: &str) {
 
 #[test]
 fn an_application_is_made_by_mouse_saved_and_shows_just_that() {
-    let mut window = window::studio(window::flagship());
+    let folder = std::env::temp_dir().join(format!("rayloom-application-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let file = folder.join("app.json");
+    let chosen = file.clone();
+    let chooser = Chooser::new(move |_| Box::pin(std::future::ready(Some(chosen.clone()))));
+    let mut window = window::studio(Options { chooser, ..window::flagship() });
     window.run_steps(3);
     click(&mut window, "processor traversal (Ray traversal): idle");
     for label in ["Sampling rate", "Shading"] {
@@ -95,14 +100,12 @@ fn an_application_is_made_by_mouse_saved_and_shows_just_that() {
     assert_eq!(made.presets[0].values[&Address::new("traversal", "shading")], serde_json::json!("blinn_phong"));
 
     // Saved and opened as its users do.
-    let folder = std::env::temp_dir().join(format!("rayloom-application-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder");
-    let file = folder.join("app.json");
-    assert!(window.state_mut().session.save(&file));
+    window.key_press_modifiers(egui::Modifiers::COMMAND.plus(egui::Modifiers::SHIFT), Key::S);
+    window::wait_until(&mut window, |studio| !studio.session.document.is_modified());
     while window.state_mut().session.document.undo() {}
     assert!(window.state().session.network().visualization.is_null(), "a change that cannot be undone");
     drop(window);
-    let mut window = window::studio(Options { network: Some(file), mode: Mode::Visualization });
+    let mut window = window::studio(Options { network: Some(file), mode: Mode::Visualization, ..Options::default() });
     window::wait_for(&mut window, "Quality");
     for label in ["Look", "As shipped", "First colour", "Shading"] {
         assert!(window.query_all_by_label(label).next().is_some(), "{label} is not shown");
