@@ -32,7 +32,7 @@ pub use camera::{Camera, CameraError, Projection};
 pub use connect::{Refusal, can_connect};
 pub use edit::EditError;
 pub use evaluate::Evaluator;
-pub use file::{LoadError, Loaded, SaveError, VERSION, Warning};
+pub use file::{LoadError, Loaded, SaveError, VERSION, Warning, write_whole};
 pub use job::{Backend, Input, Inputs, Job, Mark, Outputs, ProcessError};
 pub use json::ValueError;
 pub use light::{Light, LightError, LightSpace};

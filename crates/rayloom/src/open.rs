@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use rayloom_studio::{Mode, Options};
+use rayloom_studio::{Folders, Mode, Options};
 
 use crate::args::StartMode;
 use crate::failure::Failure;
@@ -23,7 +23,12 @@ pub fn run(network: Option<&PathBuf>, mode: StartMode) -> Result<String, Failure
         StartMode::Development => Mode::Development,
         StartMode::Visualization => Mode::Visualization,
     };
-    let options = Options { network: network.map(|path| Path::to_owned(path)), mode, ..Options::default() };
+    let options = Options {
+        network: network.map(|path| Path::to_owned(path)),
+        mode,
+        folders: Folders::of_user(),
+        ..Options::default()
+    };
     rayloom_studio::run(options).map_err(|error| Failure::new(format!("the window cannot be opened: {error}")))?;
     Ok(String::new())
 }

@@ -11,7 +11,7 @@ use crate::device::Complaints;
 use crate::dialogs::Chooser;
 use crate::display::{Display, gpu_of};
 use crate::engine::Engine;
-use crate::files::{self, Files};
+use crate::files::{self, Files, Folders};
 use crate::panels::{self, Pane, Panels};
 use crate::session::{Mode, Session, Severity};
 use crate::theme;
@@ -36,6 +36,8 @@ pub struct Options {
     pub mode: Mode,
     /// Whom to ask for files.
     pub chooser: Chooser,
+    /// Where to keep what belongs to the user; with none, nothing is kept.
+    pub folders: Option<Folders>,
 }
 
 /// The application.
@@ -72,11 +74,15 @@ impl Studio {
         if let Some(failure) = failure {
             session.tell(Severity::Error, failure.to_string());
         }
+        let files = Files::new(options.folders.as_ref(), &mut session, &creation.egui_ctx);
         let tiles = panels::default_layout();
-        Ok(Self { session, files: Files::default(), panels: Panels::default(), tiles, complaints })
+        Ok(Self { session, files, panels: Panels::default(), tiles, complaints })
     }
 
     fn shortcuts(&mut self, context: &egui::Context) {
+        if self.files.is_asking() {
+            return;
+        }
         let pressed = |shortcut| context.input_mut(|input| input.consume_shortcut(&shortcut));
         // Those with Shift first: a shortcut also matches when more modifiers are held.
         if pressed(REDO) || pressed(REDO_TOO) {
@@ -250,7 +256,8 @@ impl eframe::App for Studio {
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         let context = ui.ctx().clone();
         self.session.begin_frame();
-        if self.files.begin_frame(&mut self.session, &context) {
+        self.files.begin_frame(&mut self.session, &context);
+        if std::mem::take(&mut self.session.is_new) {
             self.panels = Panels::default();
         }
         for complaint in self.complaints.take() {
@@ -261,6 +268,7 @@ impl eframe::App for Studio {
             egui::Panel::top("menu").show(ui, |ui| self.menu_bar(ui));
             egui::Panel::bottom("status").show(ui, |ui| self.status_line(ui));
         }
+        self.files.bars(ui, &mut self.session);
         egui::CentralPanel::default().frame(egui::Frame::new()).show(ui, |ui| match self.session.mode {
             Mode::Development => {
                 let mut behavior = Behavior { session: &mut self.session, panels: &mut self.panels };
@@ -272,6 +280,7 @@ impl eframe::App for Studio {
         for pane in std::mem::take(&mut self.session.to_open) {
             panels::open(&mut self.tiles, pane);
         }
+        self.files.end_frame(&mut self.session);
         self.session.end_frame(&context);
         context.send_viewport_cmd(egui::ViewportCommand::Title(self.title()));
     }

@@ -30,6 +30,7 @@ pub use dialogs::{Choice, Chooser, Question};
 pub use display::{Display, Layer, Look};
 pub use document::Document;
 pub use engine::{Engine, Results};
+pub use files::{Abandoned, Folders, Recovery};
 pub use inspect::{ChannelStatistics, Inspection, Pixel, Reading, Statistics, hover, statistics};
 pub use panels::Pane;
 pub use quality::Quality;

@@ -56,6 +56,8 @@ pub struct Session {
     pub registry: Arc<Registry>,
     /// The network being edited.
     pub document: Document,
+    /// Set when another document is shown, until the panels have forgotten what they knew of the last one.
+    pub is_new: bool,
     /// Evaluates it.
     pub engine: Engine,
     /// Whom to ask for files.
@@ -88,6 +90,7 @@ impl Session {
         Self {
             document: Document::new(registry.clone()),
             registry,
+            is_new: false,
             engine,
             chooser: Chooser::default(),
             display,
@@ -144,6 +147,7 @@ impl Session {
     /// Shows another document in place of the one there is, and what is odd about it.
     pub fn show(&mut self, document: Document, warnings: &[Warning]) {
         self.document = document;
+        self.is_new = true;
         self.selection.clear();
         for warning in warnings {
             self.tell(Severity::Note, warning.to_string());

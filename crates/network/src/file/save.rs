@@ -31,11 +31,9 @@ impl Network {
     /// The folder or file cannot be written.
     pub fn save(&self, file: &Path) -> Result<(), SaveError> {
         let fail = |source| SaveError { file: file.to_owned(), source };
-        // Through a symbolic link, the file behind it is replaced and the link stays.
-        let target = fs::canonicalize(file).or_else(|_| std::path::absolute(file)).map_err(fail)?;
-        let folder = target.parent().ok_or_else(|| fail(io::Error::from(io::ErrorKind::IsADirectory)))?;
-        let text = self.to_text(Some(folder));
-        write_whole(&target, folder, text.as_bytes()).map_err(fail)
+        let (target, folder) = behind_links(file).map_err(fail)?;
+        let text = self.to_text(Some(&folder));
+        write_beside(&target, &folder, text.as_bytes()).map_err(fail)
     }
 
     /// The text of the network's file. Paths of files are relative to `folder` if they can be.
@@ -103,8 +101,24 @@ fn write_properties(processor: &Processor, folder: Option<&Path>) -> Map<String,
     out
 }
 
+/// Writes a file, all or nothing: a reader sees the old file or the new one, never a part.
+///
+/// # Errors
+/// The folder or file cannot be written.
+pub fn write_whole(file: &Path, bytes: &[u8]) -> io::Result<()> {
+    let (target, folder) = behind_links(file)?;
+    write_beside(&target, &folder, bytes)
+}
+
+/// The file to be replaced and its folder: through a symbolic link, the file behind it is replaced and the link stays.
+fn behind_links(file: &Path) -> io::Result<(PathBuf, PathBuf)> {
+    let target = fs::canonicalize(file).or_else(|_| std::path::absolute(file))?;
+    let folder = target.parent().ok_or(io::ErrorKind::IsADirectory)?.to_owned();
+    Ok((target, folder))
+}
+
 /// Writes beside the target, then renames over it.
-fn write_whole(target: &Path, folder: &Path, bytes: &[u8]) -> io::Result<()> {
+fn write_beside(target: &Path, folder: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".").suffix(".saving");
     #[cfg(unix)]

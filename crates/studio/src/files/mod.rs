@@ -1,7 +1,12 @@
 //! The document and its file: new, open, save, quit. Nothing here waits for a disk or a dialog; what would lose changes
 //! that are not saved asks first.
 
+mod bar;
+mod folders;
+mod keeper;
 mod question;
+mod recovery;
+mod rescue;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -15,12 +20,15 @@ use crate::document::Document;
 use crate::later::Later;
 use crate::session::{Session, Severity};
 use question::Decision;
+use rescue::Rescue;
+
+pub use folders::Folders;
+pub use recovery::{Abandoned, Recovery};
 
 /// What a network file is called until its author names it.
 const UNNAMED: &str = "network.json";
 
 /// Something that puts an end to the document as it is shown.
-#[derive(Clone, Debug)]
 enum Next {
     /// An empty network.
     New,
@@ -28,6 +36,8 @@ enum Next {
     Choose,
     /// This network file.
     Open(PathBuf),
+    /// What a program that ended without saving left behind.
+    Recover,
     /// The end of the program.
     Quit,
 }
@@ -51,9 +61,25 @@ pub struct Files {
     after_saving: Option<Next>,
     /// Whether the window may close now.
     may_close: bool,
+    rescue: Rescue,
 }
 
 impl Files {
+    /// Keeps what belongs to the user in these folders; with none, nothing is kept.
+    pub fn new(folders: Option<&Folders>, session: &mut Session, context: &Context) -> Self {
+        let rescue = folders.map(|folders| Rescue::start(&folders.state.join("recovery"), context));
+        let rescue = rescue.transpose().unwrap_or_else(|problem| {
+            session.tell(Severity::Error, problem);
+            None
+        });
+        Self { rescue: rescue.unwrap_or_default(), ..Self::default() }
+    }
+
+    /// Whether the user has to decide something before anything else.
+    pub fn is_asking(&self) -> bool {
+        self.question.is_some()
+    }
+
     /// Begins an empty network.
     pub fn new_network(&mut self, session: &mut Session, context: &Context) {
         self.leave(Next::New, session, context);
@@ -111,8 +137,8 @@ impl Files {
     }
 
     /// To be called at the beginning of a frame: takes in what was opened and saved meanwhile, and keeps the window open
-    /// while there is something to decide. Whether another document is shown now.
-    pub fn begin_frame(&mut self, session: &mut Session, context: &Context) -> bool {
+    /// while there is something to decide.
+    pub fn begin_frame(&mut self, session: &mut Session, context: &Context) {
         if context.input(|input| input.viewport().close_requested()) && !self.may_close {
             context.send_viewport_cmd(ViewportCommand::CancelClose);
             self.quit(session, context);
@@ -120,7 +146,6 @@ impl Files {
         if let Some(path) = dropped_network(context) {
             self.open(&path, session, context);
         }
-        let shown = session.document.revision();
         match self.work.take() {
             None => {}
             Some(Work::Opening(task)) => match task.poll() {
@@ -132,7 +157,20 @@ impl Files {
                 Poll::Ready(saved) => self.take_in_saved(saved.flatten(), session, context),
             },
         }
-        session.document.revision() != shown
+    }
+
+    /// Shows what there is to decide that can wait.
+    pub fn bars(&mut self, ui: &mut egui::Ui, session: &mut Session) {
+        if self.rescue.show(ui) {
+            self.leave(Next::Recover, session, ui.ctx());
+        }
+    }
+
+    /// To be called at the end of a frame, after every edit: keeps unsaved changes safe.
+    pub fn end_frame(&mut self, session: &mut Session) {
+        if !self.may_close {
+            self.rescue.follow(session);
+        }
     }
 
     /// Shows the question what becomes of the changes, if there is one.
@@ -141,7 +179,7 @@ impl Files {
         let name = session.document.path().map_or("this network".into(), |_| session.document.title());
         let verb = match next {
             Next::Quit => "quitting",
-            Next::New | Next::Choose | Next::Open(_) => "leaving it",
+            Next::New | Next::Choose | Next::Open(_) | Next::Recover => "leaving it",
         };
         let Some(decision) = question::show(context, &name, verb) else { return };
         let Some(next) = self.question.take() else { return };
@@ -181,7 +219,9 @@ impl Files {
                 let task = Later::start(context, move || Some(Document::load(&path, &registry)));
                 self.work = Some(Work::Opening(task));
             }
+            Next::Recover => self.rescue.recover(session),
             Next::Quit => {
+                self.rescue.forget();
                 self.may_close = true;
                 context.send_viewport_cmd(ViewportCommand::Close);
             }
