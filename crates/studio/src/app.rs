@@ -3,29 +3,20 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use egui::{Key, KeyboardShortcut, Modifiers};
 use egui_tiles::{Tree, UiResponse};
 use rayloom_processors::registry;
 
+use crate::commands::{self, KeyList};
 use crate::device::Complaints;
 use crate::dialogs::Chooser;
 use crate::display::{Display, gpu_of};
 use crate::engine::Engine;
 use crate::files::{self, Files, Folders};
+use crate::palette::{Chosen, Palette};
 use crate::panels::{self, Pane, Panels};
 use crate::session::{Mode, Session, Severity};
 use crate::theme;
 use crate::visualization::Application;
-
-const NEW: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::N);
-const OPEN: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::O);
-const SAVE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::S);
-const SAVE_AS: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::S);
-const UNDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Z);
-const REDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
-const REDO_TOO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Y);
-const QUIT: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Q);
-const SWITCH_MODE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::NONE, Key::F5);
 
 /// What to start with.
 #[derive(Clone, Debug, Default)]
@@ -44,9 +35,11 @@ pub struct Options {
 pub struct Studio {
     /// What the panels share.
     pub session: Session,
-    files: Files,
-    panels: Panels,
-    tiles: Tree<Pane>,
+    pub(crate) files: Files,
+    pub(crate) panels: Panels,
+    pub(crate) tiles: Tree<Pane>,
+    pub(crate) palette: Palette,
+    pub(crate) key_list: KeyList,
     complaints: Complaints,
 }
 
@@ -66,6 +59,8 @@ impl Studio {
         let engine = Engine::start(gpu.clone(), move || context.request_repaint())?;
         let display = Display::new(gpu, renderer.clone());
         theme::apply(&creation.egui_ctx);
+        // Its keys are commands of the table like all others.
+        creation.egui_ctx.options_mut(|options| options.zoom_with_keyboard = false);
         let mut session = Session::new(Arc::new(registry()), engine, display);
         session.mode = options.mode;
         session.chooser = options.chooser.clone();
@@ -75,43 +70,18 @@ impl Studio {
             session.tell(Severity::Error, failure.to_string());
         }
         let files = Files::new(options.folders.as_ref(), &mut session, &creation.egui_ctx);
-        let tiles = panels::default_layout();
-        Ok(Self { session, files, panels: Panels::default(), tiles, complaints })
+        Ok(Self {
+            session,
+            files,
+            panels: Panels::default(),
+            tiles: panels::default_layout(),
+            palette: Palette::default(),
+            key_list: KeyList::default(),
+            complaints,
+        })
     }
 
-    fn shortcuts(&mut self, context: &egui::Context) {
-        if self.files.is_asking() {
-            return;
-        }
-        let pressed = |shortcut| context.input_mut(|input| input.consume_shortcut(&shortcut));
-        // Those with Shift first: a shortcut also matches when more modifiers are held.
-        if pressed(REDO) || pressed(REDO_TOO) {
-            self.session.document.redo();
-        }
-        if pressed(UNDO) {
-            self.session.document.undo();
-        }
-        if pressed(SAVE_AS) {
-            self.files.save_as(&mut self.session, context);
-        }
-        if pressed(SAVE) {
-            self.files.save(&mut self.session, context);
-        }
-        if pressed(NEW) {
-            self.files.new_network(&mut self.session, context);
-        }
-        if pressed(OPEN) {
-            self.files.choose(&mut self.session, context);
-        }
-        if pressed(QUIT) {
-            self.files.quit(&mut self.session, context);
-        }
-        if pressed(SWITCH_MODE) {
-            self.switch_mode();
-        }
-    }
-
-    fn switch_mode(&mut self) {
+    pub(crate) fn switch_mode(&mut self) {
         self.session.mode = match self.session.mode {
             Mode::Development => Mode::Visualization,
             Mode::Visualization if Application::of(self.session.network()).0.locked => {
@@ -123,63 +93,20 @@ impl Studio {
         };
     }
 
-    fn menu_bar(&mut self, ui: &mut egui::Ui) {
-        egui::MenuBar::new().ui(ui, |ui| {
-            ui.menu_button("File", |ui| {
-                let item = |ui: &mut egui::Ui, text: &str, shortcut: KeyboardShortcut| {
-                    let shortcut = ui.ctx().format_shortcut(&shortcut);
-                    ui.add(egui::Button::new(text).shortcut_text(shortcut)).clicked()
-                };
-                let context = ui.ctx().clone();
-                let (files, session) = (&mut self.files, &mut self.session);
-                if item(ui, "New", NEW) {
-                    files.new_network(session, &context);
-                }
-                if item(ui, "Open...", OPEN) {
-                    files.choose(session, &context);
-                }
-                ui.separator();
-                if item(ui, "Save", SAVE) {
-                    files.save(session, &context);
-                }
-                if item(ui, "Save as...", SAVE_AS) {
-                    files.save_as(session, &context);
-                }
-                ui.separator();
-                if item(ui, "Quit", QUIT) {
-                    files.quit(session, &context);
-                }
-            });
-            ui.menu_button("Edit", |ui| {
-                let document = &mut self.session.document;
-                let undo = document.undo_label().map(|label| format!("Undo {label}"));
-                if ui.add_enabled(undo.is_some(), egui::Button::new(undo.as_deref().unwrap_or("Undo"))).clicked() {
-                    document.undo();
-                }
-                let redo = document.redo_label().map(|label| format!("Redo {label}"));
-                if ui.add_enabled(redo.is_some(), egui::Button::new(redo.as_deref().unwrap_or("Redo"))).clicked() {
-                    document.redo();
-                }
-            });
-            ui.menu_button("View", |ui| {
-                if ui.button("Visualization mode (F5)").clicked() {
-                    self.switch_mode();
-                }
-                if ui.button("Accuracy").on_hover_text("Compare the picture with an exact one.").clicked() {
-                    self.session.to_open.push(Pane::Accuracy);
-                }
-                if ui.button("Frame budget").on_hover_text("What every processor took, and why it ran.").clicked() {
-                    self.session.to_open.push(Pane::Budget);
-                }
-                if ui.button("Application").on_hover_text("What visualization mode shows").clicked() {
-                    self.session.to_open.push(Pane::Application);
-                }
-                if ui.button("Default layout").clicked() {
-                    self.tiles = panels::default_layout();
-                }
-                egui::global_theme_preference_buttons(ui);
-            });
-        });
+    /// Shows what lies over the panels, and does what was chosen there.
+    fn overlays(&mut self, context: &egui::Context) {
+        if std::mem::take(&mut self.session.wants_palette) {
+            self.palette.open();
+        }
+        match Palette::show(self, context) {
+            Some(Chosen::Processor(type_id)) => {
+                self.panels.network.add_at_pointer(type_id, context, &mut self.session);
+            }
+            Some(Chosen::Command(command)) => command.run(self, context),
+            None => {}
+        }
+        self.key_list.show(context);
+        self.files.show(&mut self.session, context);
     }
 
     fn status_line(&self, ui: &mut egui::Ui) {
@@ -263,9 +190,12 @@ impl eframe::App for Studio {
         for complaint in self.complaints.take() {
             self.session.tell(Severity::Error, format!("the graphics device complains: {complaint}"));
         }
-        self.shortcuts(&context);
+        commands::run_pressed(self, &context);
         if self.session.mode == Mode::Development {
-            egui::Panel::top("menu").show(ui, |ui| self.menu_bar(ui));
+            let chosen = egui::Panel::top("menu").show(ui, |ui| commands::menu_bar(ui, self)).inner;
+            if let Some(command) = chosen {
+                command.run(self, &context);
+            }
             egui::Panel::bottom("status").show(ui, |ui| self.status_line(ui));
         }
         self.files.bars(ui, &mut self.session);
@@ -276,7 +206,7 @@ impl eframe::App for Studio {
             }
             Mode::Visualization => self.panels.visualization(ui, &mut self.session),
         });
-        self.files.show(&mut self.session, &context);
+        self.overlays(&context);
         for pane in std::mem::take(&mut self.session.to_open) {
             panels::open(&mut self.tiles, pane);
         }

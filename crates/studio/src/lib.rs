@@ -6,6 +6,7 @@
 
 mod app;
 mod catalog;
+mod commands;
 mod comparison;
 mod device;
 mod dialogs;

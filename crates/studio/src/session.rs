@@ -68,6 +68,8 @@ pub struct Session {
     pub inspection: Inspection,
     /// Panes that panels ask the window to open, after this frame.
     pub to_open: Vec<Pane>,
+    /// Set by a panel that asks the window to open the palette, after this frame.
+    pub wants_palette: bool,
     /// Selected processors.
     pub selection: BTreeSet<String>,
     /// What the user was told, oldest first.
@@ -96,6 +98,7 @@ impl Session {
             display,
             inspection: Inspection::default(),
             to_open: Vec::new(),
+            wants_palette: false,
             selection: BTreeSet::new(),
             messages: Vec::new(),
             mode: Mode::default(),

@@ -18,6 +18,11 @@ use crate::session::Session;
 use crate::visualization::Visualization;
 
 pub use dock::open;
+pub use network::Action as NetworkAction;
+
+/// What the pointer and keys do that no command says: where, and for what.
+pub const GESTURES: &[(&str, &[(&str, &str)])] =
+    &[("On the node canvas", network::GESTURES), ("On a picture", canvas::GESTURES)];
 
 /// Which panel a tile holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -63,7 +68,7 @@ impl Pane {
 #[derive(Default)]
 pub struct Panels {
     processors: processors::ProcessorsPanel,
-    network: network::NetworkPanel,
+    pub(crate) network: network::NetworkPanel,
     canvas: canvas::CanvasPanel,
     accuracy: accuracy::AccuracyPanel,
     inspectors: inspector::Inspectors,

@@ -5,7 +5,7 @@ mod slice;
 
 use std::sync::Arc;
 
-use egui::{Align2, Color32, FontId, Key, Rect, Sense, Vec2};
+use egui::{Color32, FontId, Rect, Sense, Vec2};
 use rayloom_network::{Network, PropertyKind, Value};
 use rayloom_processors::Image;
 
@@ -14,8 +14,8 @@ use crate::inspect::image::paint;
 use crate::session::{CANVAS, Session};
 use camera::Held;
 
-/// What keys and the pointer do, for F1.
-const HELP: [(&str, &str); 12] = [
+/// What keys and the pointer do, for the list of keys.
+pub const GESTURES: &[(&str, &str)] = &[
     ("Drag", "turn; slices: place the crosshair"),
     ("Shift or middle drag", "move"),
     ("Right drag, wheel", "zoom; slices: the wheel goes through, Ctrl and wheel zoom"),
@@ -25,9 +25,6 @@ const HELP: [(&str, &str); 12] = [
     ("1, 3, 7", "from the front, the right, above"),
     ("Q, E", "roll"),
     ("Arrows", "turn by 15 degrees"),
-    ("F5", "visualization or development mode"),
-    ("F1", "this list"),
-    ("Ctrl Z, Ctrl Shift Z", "undo, redo"),
 ];
 
 /// What the panel remembers.
@@ -36,7 +33,6 @@ pub struct CanvasPanel {
     /// Id of the canvas shown; the first one when there is no such.
     canvas: Option<String>,
     camera: Held,
-    shows_help: bool,
 }
 
 /// What the user moves in a canvas.
@@ -82,7 +78,6 @@ impl CanvasPanel {
             Some(Behind::Slice(processor)) => slice::interact(ui, &response, shown, session, &processor),
             None => {}
         }
-        self.help(ui, &response, area);
     }
 
     /// The canvas to show; a choice where there are several.
@@ -99,33 +94,6 @@ impl CanvasPanel {
             });
         }
         self.canvas.clone()
-    }
-
-    /// F1 lists what keys and the pointer do.
-    fn help(&mut self, ui: &egui::Ui, response: &egui::Response, area: Rect) {
-        if response.hovered() && ui.input(|input| input.key_pressed(Key::F1)) {
-            self.shows_help = !self.shows_help;
-        }
-        if !self.shows_help {
-            return;
-        }
-        let font = FontId::proportional(13.0);
-        let line = 20.0;
-        let size = Vec2::new(520.0, line * HELP.len() as f32 + 24.0).min(area.size());
-        let panel = Rect::from_center_size(area.center(), size);
-        let painter = ui.painter().with_clip_rect(area);
-        painter.rect_filled(panel, 6.0, Color32::from_black_alpha(210));
-        for (row, (keys, effect)) in HELP.iter().enumerate() {
-            let left = panel.min + Vec2::new(16.0, 12.0 + line * row as f32);
-            painter.text(left, Align2::LEFT_TOP, *keys, font.clone(), Color32::WHITE);
-            painter.text(
-                left + Vec2::new(170.0, 0.0),
-                Align2::LEFT_TOP,
-                *effect,
-                font.clone(),
-                Color32::from_gray(190),
-            );
-        }
     }
 }
 

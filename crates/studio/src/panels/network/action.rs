@@ -64,7 +64,7 @@ const APART: f64 = 30.0;
 
 impl NetworkPanel {
     /// Does what the user did.
-    pub(super) fn apply(&mut self, action: Action, context: &egui::Context, session: &mut Session) {
+    pub fn apply(&mut self, action: Action, context: &egui::Context, session: &mut Session) {
         match action {
             Action::Select(ids) => {
                 session.selection = ids;
@@ -82,7 +82,7 @@ impl NetworkPanel {
             Action::Copy => copy(context, session),
             Action::Fit => self.fit = true,
             Action::Arrange => self.arrange(context, session),
-            Action::Palette => self.palette.open(),
+            Action::Palette => session.wants_palette = true,
             Action::Refuse(reason) => session.tell(Severity::Error, reason),
             adding => add(session, adding),
         }

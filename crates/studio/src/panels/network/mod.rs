@@ -13,16 +13,15 @@ mod waiting;
 
 use std::collections::{BTreeSet, HashSet};
 
-use egui::{DragAndDrop, Event, Key, Modifiers, Pos2, Rect, Response, Ui};
+use egui::{DragAndDrop, Event, Key, Pos2, Rect, Response, Ui};
 use egui_graph::{Graph, View};
 use rayloom_network::{Connection, EditError};
 
 use crate::catalog::NewProcessor;
 use crate::inspect;
-use crate::palette::Palette;
 use crate::session::Session;
 use crate::wiring::End;
-use action::Action;
+pub use action::Action;
 use drag::{Drag, Target};
 use geometry::Geometry;
 use menus::LooseEnd;
@@ -30,6 +29,18 @@ use scene::{Resting, Scene, node_id};
 
 /// Distance from a wire at which the pointer touches it, points of the window.
 const TOUCH: f32 = 6.0;
+
+/// What the pointer does, for the list of keys.
+pub const GESTURES: &[(&str, &str)] = &[
+    ("Drag a socket", "connect; a menu of what fits where nothing is"),
+    ("Drag a wire's end", "plug it elsewhere, or cut it"),
+    ("Alt and click", "cut a wire"),
+    ("Rest on a wire", "see what flows there"),
+    ("Drag", "select; with a node: move it"),
+    ("Ctrl or Shift and click", "add to the selection"),
+    ("Middle drag, wheel", "move, zoom"),
+    ("Right click", "menu"),
+];
 
 /// What the canvas remembers from frame to frame.
 pub struct NetworkPanel {
@@ -45,7 +56,6 @@ pub struct NetworkPanel {
     loose_end: Option<LooseEnd>,
     /// Where the menu of the empty canvas was opened.
     menu_at: Pos2,
-    palette: Palette,
     /// Whether the last click was here, so that keys are meant for the canvas.
     attentive: bool,
 }
@@ -61,7 +71,6 @@ impl Default for NetworkPanel {
             drag: None,
             loose_end: None,
             menu_at: Pos2::ZERO,
-            palette: Palette::default(),
             attentive: true,
         }
     }
@@ -73,7 +82,7 @@ impl NetworkPanel {
         let area = ui.available_rect_before_wrap();
         let mut actions = Vec::new();
         self.notice(ui, area);
-        self.keys(ui, &mut actions);
+        self.clipboard(ui.ctx(), &mut actions);
         self.sync(session);
         self.fit_view(ui.ctx(), session, area);
         let pointer = ui.input(|input| input.pointer.latest_pos());
@@ -125,6 +134,11 @@ impl NetworkPanel {
         }
     }
 
+    /// Adds a processor where the pointer is, or in the middle of what is visible.
+    pub fn add_at_pointer(&mut self, type_id: String, context: &egui::Context, session: &mut Session) {
+        self.apply(Action::Add(type_id, self.place(context)), context, session);
+    }
+
     /// Adds a processor in the middle of what is visible.
     pub fn add_in_the_middle(&mut self, type_id: &str, context: &egui::Context, session: &mut Session) {
         self.apply(Action::Add(type_id.to_owned(), self.geometry.center()), context, session);
@@ -138,30 +152,28 @@ impl NetworkPanel {
         }
     }
 
-    fn keys(&mut self, ui: &Ui, actions: &mut Vec<Action>) {
-        let context = ui.ctx();
-        if context.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::P)) {
-            actions.push(Action::Palette);
-        }
-        if !self.attentive || context.egui_wants_keyboard_input() || self.palette.is_open() {
+    /// Whether keys are meant for the canvas.
+    pub fn is_attentive(&self) -> bool {
+        self.attentive
+    }
+
+    /// Keys are meant for the canvas from now on.
+    pub fn attend(&mut self) {
+        self.attentive = true;
+    }
+
+    /// Whether any wires are selected.
+    pub fn has_selected_wires(&self) -> bool {
+        !self.wires.is_empty()
+    }
+
+    /// Takes the clipboard's events; all other keys are those of commands.
+    fn clipboard(&mut self, context: &egui::Context, actions: &mut Vec<Action>) {
+        if !self.attentive || context.egui_wants_keyboard_input() {
             return;
         }
-        let at = self.place(ui);
-        context.input_mut(|input| {
-            let mut key = |modifiers, key, action| {
-                if input.consume_key(modifiers, key) {
-                    actions.push(action);
-                }
-            };
-            for delete in [Key::Delete, Key::Backspace] {
-                key(Modifiers::SHIFT, delete, Action::Delete { reconnect: true });
-                key(Modifiers::NONE, delete, Action::Delete { reconnect: false });
-            }
-            key(Modifiers::COMMAND, Key::D, Action::Duplicate);
-            key(Modifiers::COMMAND, Key::A, Action::SelectAll);
-            key(Modifiers::NONE, Key::Space, Action::Palette);
-            key(Modifiers::NONE, Key::F, Action::Fit);
-            key(Modifiers::NONE, Key::L, Action::Arrange);
+        let at = self.place(context);
+        context.input(|input| {
             for event in &input.events {
                 match event {
                     Event::Copy => actions.push(Action::Copy),
@@ -174,8 +186,8 @@ impl NetworkPanel {
     }
 
     /// Where something new goes: where the pointer is, or in the middle of what is visible.
-    fn place(&self, ui: &Ui) -> Pos2 {
-        let pointer = ui.input(|input| input.pointer.latest_pos());
+    fn place(&self, context: &egui::Context) -> Pos2 {
+        let pointer = context.input(|input| input.pointer.latest_pos());
         pointer.and_then(|at| self.geometry.on_canvas(at)).unwrap_or_else(|| self.geometry.center())
     }
 
@@ -274,13 +286,10 @@ impl NetworkPanel {
         }
     }
 
-    /// The menu at a loose wire, and the palette.
+    /// The menu at a loose wire.
     fn choose(&mut self, ui: &mut Ui, session: &Session, actions: &mut Vec<Action>) {
         if let Some(menu) = self.loose_end.take() {
             self.loose_end = menus::loose_end(ui, session, menu, actions);
-        }
-        if let Some(type_id) = self.palette.show(ui.ctx(), &session.registry) {
-            actions.push(Action::Add(type_id, self.place(ui)));
         }
     }
 

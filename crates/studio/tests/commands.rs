@@ -1,0 +1,66 @@
+//! Every command is within reach of the keyboard.
+
+mod window;
+
+use egui::{Event, Key, Modifiers};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use rayloom_studio::{Mode, Studio};
+
+fn press(window: &mut Harness<'_, Studio>, modifiers: Modifiers, key: Key) {
+    window.key_press_modifiers(modifiers, key);
+    window.run_steps(3);
+}
+
+/// Runs a command by its name, with the keyboard alone.
+fn command(window: &mut Harness<'_, Studio>, name: &str) {
+    press(window, Modifiers::COMMAND, Key::P);
+    window.event(Event::Text(name.into()));
+    window.run_steps(2);
+    press(window, Modifiers::NONE, Key::Enter);
+}
+
+#[test]
+fn the_palette_runs_commands_and_keys_do_too() {
+    let mut window = window::studio(window::flagship());
+    window.run_steps(3);
+    let processors = |window: &Harness<'_, Studio>| window.state().session.network().processors().count();
+    let before = processors(&window);
+
+    command(&mut window, "select all");
+    assert_eq!(window.state().session.selection.len(), before);
+    command(&mut window, "no such words");
+    assert_eq!(processors(&window), before, "no such words in any command: nothing happens");
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    press(&mut window, Modifiers::NONE, Key::Delete);
+    assert_eq!(processors(&window), 0);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(processors(&window), before);
+
+    press(&mut window, Modifiers::COMMAND, Key::Plus);
+    assert!((window.ctx.zoom_factor() - 1.1).abs() < 1e-6);
+    command(&mut window, "normal size");
+    assert!((window.ctx.zoom_factor() - 1.0).abs() < 1e-6);
+    command(&mut window, "light theme");
+    assert_eq!(window.ctx.theme(), egui::Theme::Light);
+    command(&mut window, "visualization mode");
+    assert_eq!(window.state().session.mode, Mode::Visualization);
+    press(&mut window, Modifiers::NONE, Key::F5);
+    assert_eq!(window.state().session.mode, Mode::Development);
+}
+
+#[test]
+fn one_key_lists_all_keys() {
+    let mut window = window::studio(window::flagship());
+    window.run_steps(3);
+    assert!(window.query_by_label("Delete and reconnect").is_none());
+    press(&mut window, Modifiers::NONE, Key::F1);
+    for line in ["Delete and reconnect", "cut a wire", "roll"] {
+        assert!(window.query_by_label(line).is_some(), "{line} is not listed");
+    }
+    window::keep_picture(&mut window, "keys");
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(window.query_by_label("Delete and reconnect").is_none());
+    press(&mut window, Modifiers::COMMAND, Key::P);
+    window::keep_picture(&mut window, "palette");
+}
