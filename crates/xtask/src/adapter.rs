@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use crate::command::{program, run, succeeds};
+use crate::command::{program, succeeds};
+use crate::packages;
 
 /// What Debian and Ubuntu call the Vulkan loader and Mesa's drivers, the software one among them.
 const PACKAGES: [&str; 2] = ["mesa-vulkan-drivers", "libvulkan1"];
@@ -16,34 +17,15 @@ pub fn ensure(rayloom: &Path) -> Result<(), String> {
     if adapter() {
         return Ok(());
     }
-    if !Path::new("/etc/debian_version").exists() {
+    if !packages::can_install() {
         return Err(elsewhere().to_owned());
     }
-    install()?;
+    let why = "No Vulkan adapter was found. Mesa's drivers render on the processor where there is no graphics card.";
+    packages::install(&PACKAGES, why)?;
     if adapter() {
         return Ok(());
     }
     Err(format!("{} are installed, but `rayloom adapter` still finds no graphics adapter", PACKAGES.join(" and ")))
-}
-
-fn install() -> Result<(), String> {
-    let line = format!("apt-get install {}", PACKAGES.join(" "));
-    let root = succeeds(program("sh", &["-c", "test \"$(id -u)\" = 0"]).env_remove("ENV"));
-    eprintln!("No Vulkan adapter was found. The packages {} will be installed now:", PACKAGES.join(" and "));
-    eprintln!("Mesa's Vulkan drivers, which render on the processor where there is no graphics card.");
-    if !root && !succeeds(&mut program("sudo", &["--version"])) {
-        return Err(format!("installing needs the rights of root and there is no sudo; run as root: {line}"));
-    }
-    let apt_get = |arguments: &[&str]| {
-        let words: Vec<&str> = if root { vec!["apt-get"] } else { vec!["sudo", "apt-get"] };
-        let words: Vec<&str> = words.into_iter().chain(arguments.iter().copied()).collect();
-        run(program(words[0], &words[1..]).env("DEBIAN_FRONTEND", "noninteractive"))
-    };
-    // Old package lists may do as well: what counts is whether the packages can be installed.
-    let _ = apt_get(&["update", "--quiet"]);
-    let mut arguments = vec!["install", "--yes", "--quiet", "--no-install-recommends"];
-    arguments.extend(PACKAGES);
-    apt_get(&arguments)
 }
 
 /// What to do on a system without apt-get.

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::adapter;
 use crate::command::{cargo, program, root, run, succeeds};
+use crate::window::{self, Outcome};
 
 /// The network behind the picture in the README.
 const FLAGSHIP: &str = "networks/brain.json";
@@ -36,7 +37,8 @@ fn has_display() -> bool {
 /// Everything that must hold before a change is merged; goes on after a failure and sums up at the end.
 pub fn test() -> Result<(), String> {
     // The tests render, so that without an adapter nothing else is worth waiting for.
-    adapter::ensure(&build("dev")?)?;
+    let rayloom = build("dev")?;
+    adapter::ensure(&rayloom)?;
     let nextest = succeeds(&mut cargo(&["nextest", "--version"]));
     let tests = if nextest {
         cargo(&["nextest", "run", "--workspace", "--no-fail-fast"])
@@ -52,13 +54,34 @@ pub fn test() -> Result<(), String> {
         ("documentation tests", cargo(&["test", "--workspace", "--doc", "--quiet"])),
         ("documentation", documentation),
     ];
-    let results: Vec<_> = steps.into_iter().map(|(name, mut command)| (name, run(&mut command))).collect();
+    let mut results: Vec<_> =
+        steps.into_iter().map(|(name, mut command)| (name, run(&mut command).map(|()| Outcome::Passed))).collect();
+    eprintln!("> a window on an X server without a monitor");
+    results.push(("window", window::check(&rayloom)));
     eprintln!("\nSummary");
     for (name, result) in &results {
-        eprintln!("  {name:<22}{}", if result.is_ok() { "passed" } else { "FAILED" });
+        eprintln!("  {name:<22}{}", told(result));
     }
     let failed: Vec<&str> = results.iter().filter(|(_, result)| result.is_err()).map(|(name, _)| *name).collect();
     if failed.is_empty() { Ok(()) } else { Err(format!("failed: {}", failed.join(", "))) }
+}
+
+/// Opens a real window and uses it.
+pub fn window() -> Result<(), String> {
+    let rayloom = build("dev")?;
+    adapter::ensure(&rayloom)?;
+    let result = window::check(&rayloom);
+    eprintln!("window: {}", told(&result));
+    result.map(drop)
+}
+
+/// How a step went.
+fn told(result: &Result<Outcome, String>) -> String {
+    match result {
+        Ok(Outcome::Passed) => "passed".into(),
+        Ok(Outcome::Skipped(why)) => format!("skipped: {why}"),
+        Err(error) => format!("FAILED: {error}"),
+    }
 }
 
 /// Rewrites the golden images.

@@ -3,6 +3,8 @@
 mod adapter;
 mod chores;
 mod command;
+mod packages;
+mod window;
 
 use std::process::ExitCode;
 
@@ -10,13 +12,14 @@ const HELP: &str = "\
 Chores of the project: cargo xtask CHORE
 
   start     build, render the flagship network to out/brain.png and say where it is; open it where there is a display
-  test      check formatting, lint, run all tests, build the documentation
+  test      check formatting, lint, run all tests, build the documentation, open a window
   golden    render the golden images anew (look at the difference before you commit it)
   docs      write docs/processors and docs/snippets anew from the declarations
+  window    open the flagship network in a window on an X server without a monitor, turn it, close it (part of test)
   bench     run the benches
 
 `start` and `test` need a Vulkan adapter. Where there is none they install Mesa's software driver on Debian and
-Ubuntu (saying so first) and print what to install elsewhere.
+Ubuntu (saying so first) and print what to install elsewhere. `window` does the same with Xvfb and xdotool.
 ";
 
 fn main() -> ExitCode {
@@ -26,6 +29,7 @@ fn main() -> ExitCode {
         ["test"] => chores::test(),
         ["golden"] => chores::golden(),
         ["docs"] => chores::docs(),
+        ["window"] => chores::window(),
         ["bench"] => chores::bench(),
         ["help" | "--help" | "-h"] => {
             print!("{HELP}");
