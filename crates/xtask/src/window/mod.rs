@@ -16,6 +16,8 @@ use screen::Screen;
 
 /// Longest time that the window may take to appear, to draw or to close, on a slow machine without a graphics card.
 const PATIENCE: Duration = Duration::from_secs(180);
+/// A picture that stayed for so long has stopped changing.
+const STILL: Duration = Duration::from_secs(4);
 /// What Debian and Ubuntu call the X server and the program that moves its pointer.
 const PACKAGES: [&str; 2] = ["xvfb", "xdotool"];
 /// Size of the screen and of the window, pixels.
@@ -85,15 +87,16 @@ impl Window {
 
     fn try_out(&mut self) -> Result<(), String> {
         let window = self.wait("a window", |screen| screen.find("Rayloom"))?;
-        self.wait("a picture in the window", |screen| screen.picture().ok().filter(Picture::is_rich))?;
+        let development = self.settled("a picture that stays")?;
         self.screen.focus(&window)?;
         self.screen.keys("F5")?;
         let middle = |screen: &Screen| screen.picture().ok().map(|picture| picture.part(MIDDLE));
-        let before = self.settled("a picture in the middle in visualization mode")?;
+        self.wait("visualization mode", |screen| middle(screen).filter(|now| now.differs(&development)))?;
+        let before = self.settled("a picture that fills the window")?;
         self.screen.picture()?.save(&self.folder.join("before.ppm"))?;
         self.screen.drag([640, 400], [760, 340])?;
         self.wait("another picture after dragging", |screen| middle(screen).filter(|now| now.differs(&before)))?;
-        // Keys count when the drag is over and its picture has full resolution.
+        // An undo while the pointer still moves would be no use.
         self.settled("a picture that stays after dragging")?;
         self.screen.picture()?.save(&self.folder.join("after.ppm"))?;
         // The picture as it was: nothing is left to be saved when the window closes.
@@ -103,14 +106,22 @@ impl Window {
         self.closed()
     }
 
-    /// The middle of the window once there is a picture that has stopped changing.
+    /// The middle of the window once there is a picture in it that has stopped changing.
     fn settled(&mut self, what: &str) -> Result<Picture, String> {
-        let mut last: Option<Picture> = None;
+        let mut last: Option<(Picture, Instant)> = None;
         self.wait(what, |screen| {
             let now = screen.picture().ok()?.part(MIDDLE);
-            let still = last.as_ref().is_some_and(|last| !now.differs(last)) && now.is_rich();
-            last = Some(now);
-            last.take_if(|_| still)
+            match last.take() {
+                Some((before, since)) if !now.differs(&before) => {
+                    let still = since.elapsed() > STILL && now.is_rich();
+                    last = Some((before, since));
+                    still.then_some(now)
+                }
+                _ => {
+                    last = Some((now, Instant::now()));
+                    None
+                }
+            }
         })
     }
 
