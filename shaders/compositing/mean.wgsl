@@ -24,5 +24,8 @@ fn done(state: State) -> bool {
 }
 
 fn finish(state: State, ray: Ray) -> Result {
-    return Result(absorb(classify_value(state.sum / max(state.length, 1e-30)), 1.0), -1.0);
+    if state.length <= 0.0 {
+        return Result(vec4f(0.0), -1.0);
+    }
+    return Result(absorb(classify_value(state.sum / state.length), 1.0), -1.0);
 }

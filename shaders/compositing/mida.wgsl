@@ -31,6 +31,9 @@ fn done(state: State) -> bool {
 }
 
 fn finish(state: State, ray: Ray) -> Result {
+    if state.along < 0.0 {
+        return Result(vec4f(0.0), -1.0);
+    }
     // Two accumulators, mixed once: the mixture never feeds back into the accumulation.
     let projection = absorb(medium_at(ray, state.along), 1.0);
     return Result(mix(state.color, projection, max(params.gamma, 0.0)), state.along);

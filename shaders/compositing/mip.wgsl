@@ -24,5 +24,8 @@ fn done(state: State) -> bool {
 }
 
 fn finish(state: State, ray: Ray) -> Result {
+    if state.along < 0.0 {
+        return Result(vec4f(0.0), -1.0);
+    }
     return Result(absorb(medium_at(ray, state.along), 1.0), state.along);
 }

@@ -25,6 +25,10 @@
 #if skipping
 @group(0) @binding(11) var skip_map: texture_3d<u32>;
 #endif
+#if gaps
+/// 1 where interpolation touches a voxel that has no value.
+@group(0) @binding(14) var gap_map: texture_3d<u32>;
+#endif
 #if statistics
 /// rays, then samples taken and samples contributing, each as low and high word.
 @group(0) @binding(12) var<storage, read_write> counters: array<atomic<u32>, 6>;

@@ -93,6 +93,11 @@ fn last_stretch(ray: Ray) -> Sample {
     s.previous = value_at(position_along(ray, s.previous_along));
     s.along = ray.steps;
     s.value = value_at(position_along(ray, s.along));
+#if gaps
+    if in_gap(position_along(ray, s.previous_along)) || in_gap(position_along(ray, s.along)) {
+        s.previous = s.value;
+    }
+#endif
     return s;
 }
 #endif

@@ -3,6 +3,7 @@
 //! Coordinates. Volume coordinates run from 0 to 1 across the volume's box. Positions along a ray are counted in
 //! sample steps from the entry point. Lengths are counted in reference lengths, the unit of a transfer function's
 //! opacity. Values are normalised: 0 and 1 are the ends of the data range.
+//! Where there are no values (NaN voxels, and all that interpolation with them touches) there are no samples.
 //! Samples sit on one lattice a ray, at the middle of segments 0, 1, 2, ...; the last segment is shortened.
 //! A medium is (emission, extinction): rgb is colour times extinction, w the extinction a reference length.
 //!
@@ -82,6 +83,9 @@ fn traverse(@builtin(global_invocation_id) id: vec3u) {
     if ray.count > 0u {
         previous = value_at(ray.entry);
     }
+#if gaps
+    var after_gap = in_gap(ray.entry);
+#endif
 #endif
     var index = 0u;
     while index < ray.count {
@@ -102,6 +106,9 @@ fn traverse(@builtin(global_invocation_id) id: vec3u) {
 #endif
             s.medium = classify(s);
             visible = s.medium.w > 0.0;
+#if gaps
+            visible = visible && !in_gap(s.position);
+#endif
             index += 1u;
 #if counting
             taken += 1u;
@@ -119,9 +126,27 @@ fn traverse(@builtin(global_invocation_id) id: vec3u) {
         }
 #endif
         var s = sample_ray(ray, index);
+#if gaps
+        if in_gap(s.position) {
+            index += 1u;
+#if previous
+            previous_along = s.along;
+            after_gap = true;
+#endif
+#if counting
+            taken += 1u;
+#endif
+            continue;
+        }
+#endif
 #if previous
         s.previous = previous;
         s.previous_along = previous_along;
+#if gaps
+        // Nothing is known of what lies between: no surface is crossed, and the value stands for the segment.
+        s.previous = select(previous, s.value, after_gap);
+        after_gap = false;
+#endif
 #endif
 #if loop_gradient
         s.gradient = world_gradient(s.position, s.voxel);

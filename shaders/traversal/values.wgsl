@@ -22,3 +22,11 @@ fn selected(voxel: vec4f) -> f32 {
 fn value_at(p: vec3f) -> f32 {
     return selected(voxel_at(p));
 }
+#if gaps
+
+/// Whether interpolation between the voxels around `p` (volume coordinates) touches one that has no value (NaN).
+fn in_gap(p: vec3f) -> bool {
+    let last = vec3i(textureDimensions(gap_map)) - 1;
+    return textureLoad(gap_map, clamp(vec3i(floor(p * frame.dims - 0.5)), vec3i(0), last), 0).x != 0u;
+}
+#endif

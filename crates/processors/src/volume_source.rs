@@ -52,7 +52,7 @@ pub(crate) fn outputs_of(context: &Context, outport: &str, volume: Arc<Volume>, 
     let mut notes: Vec<String> = Storage::choose(&volume, precision, context.gpu.features).loss.into_iter().collect();
     if volume.non_finite() > 0 {
         notes.push(format!(
-            "{} voxels are NaN or infinite; NaN is drawn as the smallest value, infinities as the ends of the range.",
+            "{} voxels are NaN or infinite; NaN is not drawn, nor what is interpolated with it; infinities are drawn as the ends of the range.",
             volume.non_finite()
         ));
     }

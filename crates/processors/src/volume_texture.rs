@@ -32,7 +32,7 @@ pub struct GpuVolume {
 }
 
 impl GpuVolume {
-    /// Converts and uploads a volume. NaN becomes the minimum of its channel's range, an infinity the end it lies beyond.
+    /// Converts and uploads a volume. NaN becomes the minimum of its channel's range (and is not drawn), an infinity the end it lies beyond.
     /// Fails when a side is longer than the device allows or its memory does not suffice.
     pub fn upload(gpu: &Gpu, volume: &Volume, precision: Precision) -> Result<Self, GpuError> {
         let storage = Storage::choose(volume, precision, gpu.features);

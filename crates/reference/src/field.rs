@@ -2,7 +2,7 @@
 
 use crate::spline;
 use glam::{DVec3, UVec3};
-use rayloom_volume::{ValueRange, Volume};
+use rayloom_volume::{Gaps, ValueRange, Volume};
 
 /// How the field between voxel centres is reconstructed from the voxels.
 ///
@@ -28,11 +28,12 @@ pub struct Field {
     samples: Vec<f64>,
     sampling: Sampling,
     range: ValueRange,
+    gaps: Option<Gaps>,
 }
 
 impl Field {
     /// The field of `channel` of `volume`. Voxels that are not finite take the substitutes that the volume hands out for
-    /// rendering.
+    /// rendering; where those are NaN, and in the cells of interpolation that touch them, the field is not to be seen.
     pub fn new(volume: &Volume, channel: u32, sampling: Sampling) -> Self {
         let dims = UVec3::from_array(volume.dims);
         let range = volume.ranges()[channel as usize];
@@ -47,7 +48,7 @@ impl Field {
         if sampling == Sampling::BSplinePrefiltered {
             spline::prefilter(&mut samples, dims);
         }
-        Self { dims, samples, sampling, range }
+        Self { dims, samples, sampling, range, gaps: Gaps::of(volume, channel) }
     }
 
     /// Number of voxels along each axis.
@@ -68,6 +69,11 @@ impl Field {
     /// Smallest and largest finite voxel value of the channel, in data units.
     pub fn range(&self) -> ValueRange {
         self.range
+    }
+
+    /// Whether the field has no value at texture coordinates.
+    pub fn in_gap(&self, texture: DVec3) -> bool {
+        self.gaps.as_ref().is_some_and(|gaps| gaps.contains(self.texture_to_index(texture).to_array()))
     }
 
     /// The field at texture coordinates, in data units.

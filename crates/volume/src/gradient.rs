@@ -17,7 +17,8 @@ pub enum Operator {
 /// ([`VolumeRole::GradientAndValue`]) on the same grid.
 ///
 /// Differences at the borders are one-sided, so a linear field has the same gradient everywhere, border voxels included;
-/// along an axis with one voxel the gradient is zero. Voxels that are not finite count as in [`Volume::finite_value`].
+/// along an axis with one voxel the gradient is zero. Voxels that are not finite count as in [`Volume::finite_value`]; the values
+/// of the result are NaN where those of the volume are.
 ///
 /// # Errors
 /// When the result does not fit into memory.
@@ -30,6 +31,7 @@ pub fn gradient_volume(volume: &Volume, channel: u32, operator: Operator) -> Res
     voxels.try_reserve_exact(count).map_err(|_| VolumeError::TooLarge { dims: volume.dims, channels: 4 })?;
     voxels.resize(count, 0.0);
     let [nx, ny, _] = volume.dims.map(|n| n as usize);
+    let may_be_nan = volume.non_finite() > 0;
     voxels.par_chunks_mut(4 * nx).enumerate().for_each_init(
         || GradientRows::new(volume, channel, operator),
         |rows, (row, line)| {
@@ -38,6 +40,12 @@ pub fn gradient_volume(volume: &Volume, channel: u32, operator: Operator) -> Res
             let parts = x.iter().zip(y).zip(z).zip(rows.values());
             for (voxel, (((x, y), z), value)) in line.chunks_exact_mut(4).zip(parts) {
                 voxel.copy_from_slice(&[*x as f32, *y as f32, *z as f32, *value as f32]);
+            }
+            if may_be_nan {
+                for (i, voxel) in line.chunks_exact_mut(4).enumerate() {
+                    let stored = volume.voxels.stored((row * nx + i) * volume.channels as usize + channel as usize);
+                    voxel[3] = if stored.is_nan() { f32::NAN } else { voxel[3] };
+                }
             }
         },
     );

@@ -11,6 +11,7 @@
 mod bricks;
 mod bspline;
 mod distance;
+mod gaps;
 mod generate;
 mod gradient;
 mod histogram;
@@ -23,6 +24,7 @@ mod voxels;
 pub use bricks::MinMaxBricks;
 pub use bspline::bspline_coefficients;
 pub use distance::distance_map;
+pub use gaps::Gaps;
 pub use generate::{Field, generate};
 pub use gradient::{Operator, gradient_volume};
 pub use histogram::{Histogram, Histogram2D, histogram, histogram_2d};

@@ -27,6 +27,8 @@ pub struct Choice {
     pub jitter: bool,
     /// Store colours as 16-bit instead of 32-bit floats.
     pub half_targets: bool,
+    /// The volume has voxels without a value (NaN), which are not drawn.
+    pub gaps: bool,
     /// The channel that is classified, 0..=3.
     pub channel: u32,
     /// Channels of the volume, 1..=4.
@@ -283,6 +285,7 @@ impl<'a> Used<'a> {
         set("counting", choice.statistics || choice.sample_map);
         set("jitter", choice.jitter);
         set("half_targets", choice.half_targets);
+        set("gaps", choice.gaps);
         set(&format!("channel_{}", choice.channel), true);
         set(&format!("channels_{}", choice.channels), true);
         for slot in self.snippets.keys() {
@@ -312,6 +315,7 @@ pub fn legal_choices(library: &Library) -> BTreeSet<Choice> {
         sample_map: false,
         jitter: false,
         half_targets: false,
+        gaps: false,
         channel: 0,
         channels: 1,
     }];

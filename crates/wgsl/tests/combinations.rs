@@ -77,6 +77,7 @@ fn every_set_of_outputs_is_valid_with_every_switch() {
                         sample_map: switches & 1 == 0,
                         jitter: switches == 3,
                         half_targets: switches & 2 != 0,
+                        gaps: switches & 2 != 0,
                         channel: switches,
                         channels: switches + 1,
                     });

@@ -26,6 +26,7 @@ fn choice(library: &Library, slots: &[(Slot, &str)], output: &str) -> Choice {
         sample_map: false,
         jitter: false,
         half_targets: false,
+        gaps: false,
         channel: 0,
         channels: 1,
     }

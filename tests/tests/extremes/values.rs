@@ -1,15 +1,16 @@
 //! E22 to E31, E40 to E44: what voxels and transfer functions may hold.
 
 use glam::{DAffine3, DVec3};
-use rayloom_reference::Camera;
 use rayloom_reference::closed_forms::homogeneous_opacity;
-use rayloom_tests::rays::homogeneous;
-use rayloom_tests::{VolumeFile, Workbench, tolerances::*};
+use rayloom_reference::ray::AxisBox;
+use rayloom_reference::{Camera, Comparison, Method, Refinement, Scene, same_samples};
+use rayloom_tests::rays::{Chord, chords, homogeneous};
+use rayloom_tests::{Grid, VolumeFile, Workbench, tolerances::*};
 use rayloom_volume::{Knot, TransferFunction};
 use serde_json::json;
 
 use crate::worlds::ramp_from_0_to_1;
-use crate::{assert_sound, difference, function, outside, ramp, same_bits, shown, thing_grid};
+use crate::{SIZE, assert_sound, difference, function, outside, ramp, same_bits, shown, thing_grid};
 
 /// A volume of 64-bit floats with voxels of edge 1.
 fn doubles(dims: [u32; 3], values: impl Iterator<Item = f64>) -> VolumeFile {
@@ -22,6 +23,109 @@ const SURFACE: [(&str, &str); 2] = [("compositing", "isosurface"), ("shading", "
 
 fn camera() -> Camera {
     outside(DVec3::new(6.5, 5.5, 4.5), 14.0)
+}
+
+/// A ramp with two voxels that have no value, and the index of one of them.
+fn ramp_with_gaps() -> (Grid, [u32; 3]) {
+    let dims = [12, 11, 10];
+    let grid = Grid::of_index(dims, DAffine3::IDENTITY, |index| match index {
+        [6, 5, 4] | [11, 0, 9] => f64::NAN,
+        [i, j, k] => (f64::from(i) + 0.3 * f64::from(j) + 0.1 * f64::from(k)) / 15.0,
+    });
+    (grid, [6, 5, 4])
+}
+
+/// A NaN voxel and all that is interpolated with it is not there: the rest of the ray shows as ever.
+#[test]
+fn e22_nan_voxels_are_not_there() {
+    let (grid, [i, j, k]) = ramp_with_gaps();
+    let file = grid.save();
+    let mut bench = Workbench::of_file(file.path());
+    let volume = bench.volume();
+    let camera = outside(DVec3::new(5.5, 5.0, 4.5), 12.0);
+    let tau = 0.2;
+    bench.put("traversal.sampling_rate", json!(64));
+    let picture = shown(&mut bench, &camera, &homogeneous(tau, [1.0; 3]), &[]);
+    assert_sound(&picture, "gaps");
+    // The cells around a voxel reach to the next voxel centres; those at a corner to the border of the box.
+    let dims = DVec3::from_array(grid.dims.map(f64::from));
+    let inner = DVec3::from_array([i, j, k].map(f64::from)) + 0.5;
+    let around =
+        |low: DVec3, high: DVec3| chords(&camera, SIZE, &volume, &AxisBox { min: low / dims, max: high / dims });
+    let [whole, hole, corner] = [
+        chords(&camera, SIZE, &volume, &AxisBox::UNIT),
+        around(inner - 1.0, inner + 1.0),
+        around(DVec3::new(10.5, 0.0, 8.5), DVec3::new(12.0, 1.5, 10.0)),
+    ];
+    let length = |chord: &Option<Chord>| chord.as_ref().map_or(0.0, |chord| chord.length);
+    let mut holes = 0;
+    for (n, pixel) in picture.color.iter().enumerate() {
+        let missing = length(&hole[n]) + length(&corner[n]);
+        let exact = homogeneous_opacity(tau, length(&whole[n]) - missing);
+        holes += u32::from(missing > 0.5);
+        // Two ends of a hole, at whole samples.
+        let allowed = if missing > 0.0 { 4.0 * tau / 64.0 } else { OPACITY + tau * 12.0 * CHORD };
+        assert!((f64::from(pixel[3]) - exact).abs() <= allowed, "pixel {n}: {} for {exact}", pixel[3]);
+    }
+    assert!(holes > 15, "only {holes} rays meet a hole");
+}
+
+/// The device against float64 with gaps; and nothing but gaps is nothing.
+#[test]
+fn e22_gaps_in_every_look() {
+    let (grid, _) = ramp_with_gaps();
+    let file = grid.save();
+    let nothing = Grid { values: vec![f32::NAN; grid.values.len()], ..grid.clone() }.save();
+    let (mut bench, mut empty) = (Workbench::of_file(file.path()), Workbench::of_file(nothing.path()));
+    let volume = bench.volume();
+    let camera = outside(DVec3::new(5.5, 5.0, 4.5), 12.0);
+    let function = ramp(0.0, 1.0);
+    let surface = Method::Isosurface { value: 0.5, refinement: Refinement::Bisection(8) };
+    for (compositing, method) in [
+        ("dvr", Some(Method::Dvr)),
+        ("mip", Some(Method::Mip)),
+        ("minip", Some(Method::MinIp)),
+        ("mean", Some(Method::Mean)),
+        ("isosurface", Some(surface)),
+        ("isosurface_dvr", None),
+        ("isosurfaces", None),
+        ("mida", None),
+        ("attenuated_mip", None),
+        ("sum", None),
+        ("maximum_opacity", None),
+        ("first_hit_point", None),
+    ] {
+        let look = [("compositing", compositing), ("refinement", "bisection")];
+        let none = shown(&mut empty, &camera, &homogeneous(1.0, [1.0; 3]), &look);
+        assert!(compositing == "sum" || none.color.iter().flatten().all(|c| *c == 0.0), "{compositing} of nothing");
+        let found = shown(&mut bench, &camera, &function, &look);
+        assert!(found.color.iter().flatten().chain(&found.depth).all(|x| x.is_finite()), "{compositing}");
+        let Some(method) = method else { continue };
+        let mut scene = Scene { method, ..Scene::new(&volume, function.clone(), camera, SIZE) };
+        if compositing == "isosurface" {
+            // Its colour is its own property here.
+            scene.classification = crate::function(&[(0.0, [0.9, 0.85, 0.75], 1.0)]);
+        }
+        let expected = same_samples::render(&scene).expect("a scene that makes sense");
+        let share = Comparison::new(&found.color, &expected.color).expect("one size").share_within(AGREEMENT_PIXEL);
+        println!("E22 {compositing}: {:.2} % of the pixels agree", 100.0 * share);
+        // A ray that grazes a gap may take one sample more or less.
+        assert!(share >= 0.99, "{compositing}: only {share} of the pixels agree");
+    }
+    // Leaps over empty space change no bit, with gaps and classifications that read two samples.
+    let thin = crate::function(&[(0.45, [1.0; 3], 0.0), (0.5, [1.0; 3], 0.4), (0.55, [1.0; 3], 0.0)]);
+    for look in [
+        &[("compositing", "dvr"), ("classification", "preintegrated_full"), ("shading", "none")][..],
+        &[("classification", "transfer_function"), ("shading", "blinn_phong")],
+        &[("compositing", "isosurface"), ("shading", "diffuse")],
+    ] {
+        let pictures = ["none", "occupancy", "distance"].map(|skipping| {
+            bench.put("traversal.skipping", json!(skipping));
+            shown(&mut bench, &camera, &thin, look)
+        });
+        assert_sound(&pictures[0], "skipping");
+        assert!(pictures[1..].iter().all(|picture| same_bits(&pictures[0], picture)), "{look:?}");
+    }
 }
 
 #[test]

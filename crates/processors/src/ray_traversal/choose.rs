@@ -58,6 +58,7 @@ pub(super) fn plan<'a>(
         sample_map: job.wants(SAMPLES),
         jitter: job.properties.bool("jitter")?,
         half_targets: job.properties.text("target")? == "16-bit",
+        gaps: memory.gaps.of(volume, channel).is_some(),
         channel,
         channels: volume.channels,
     };

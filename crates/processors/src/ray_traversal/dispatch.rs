@@ -203,6 +203,11 @@ impl Pass<'_> {
                 }
                 None => return Err(unknown(name)),
             },
+            "gap_map" => {
+                let volume = &self.inputs.volume.volume;
+                let gaps = memory.gaps.texture(gpu, volume, self.plan.channel)?;
+                Resource::Texture(gaps.ok_or_else(|| unknown(name))?)
+            }
             _ => self.output(name, targets)?,
         })
     }

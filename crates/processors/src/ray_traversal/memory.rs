@@ -7,6 +7,7 @@ use rayloom_network::ProcessError;
 use rayloom_volume::{LabelTable, TransferFunction, TransferFunction2D, ValueRange};
 use rayloom_wgsl::{Assembled, Choice, Library, Validated, assemble, validate};
 
+use super::gaps::GapMemory;
 use super::memo::Memo;
 use super::skipping::SkipMemory;
 use super::snippets::shader_error;
@@ -19,6 +20,7 @@ pub struct Memory {
     last: Option<Arc<Validated>>,
     pub(super) splines: Splines,
     pub(super) skipping: SkipMemory,
+    pub(super) gaps: GapMemory,
     pub(super) table: Memo<(TransferFunction, ValueRange), Arc<Texture>>,
     pub(super) table_2d: Memo<(TransferFunction2D, ValueRange), Arc<Texture>>,
     pub(super) preintegrated: Memo<(TransferFunction, ValueRange, Option<f64>), Arc<Texture>>,

@@ -4,6 +4,7 @@ mod choose;
 mod declare;
 mod dispatch;
 mod frame;
+mod gaps;
 mod memo;
 mod memory;
 mod parameters;

@@ -23,6 +23,8 @@ pub(super) struct Cell {
     pub(super) to: f64,
     /// The field, in data units, over the piece mapped to `0..1`.
     pub(super) values: Bernstein,
+    /// Whether the field has no value here; `values` are substitutes.
+    pub(super) is_gap: bool,
 }
 
 impl Cell {
@@ -35,6 +37,7 @@ impl Cell {
 /// The cells of a ray from front to back. They cover it without gap or overlap.
 pub(super) struct Cells<'a> {
     field: &'a Field,
+    segment: Segment,
     axes: [Axis; 3],
     /// Where the next cell begins.
     from: f64,
@@ -68,7 +71,7 @@ impl<'a> Cells<'a> {
         let (entry, exit) = (field.texture_to_index(segment.entry), field.texture_to_index(segment.exit));
         let last = field.last_center();
         let axes = [0, 1, 2].map(|axis| Axis::new(entry[axis], (exit - entry)[axis], pitch, last[axis]));
-        Self { field, axes, from: 0.0 }
+        Self { field, segment: *segment, axes, from: 0.0 }
     }
 }
 
@@ -88,7 +91,8 @@ impl Iterator for Cells<'_> {
             }
             self.from = to;
             if to > from {
-                return Some(Cell { from, to, values: polynomial(self.field, spans) });
+                let is_gap = self.field.in_gap(self.segment.at(0.5 * (from + to)));
+                return Some(Cell { from, to, values: polynomial(self.field, spans), is_gap });
             }
         }
         None

@@ -29,7 +29,7 @@ impl Renderer<'_> {
         let mut total = Stretch::default();
         let mut first = None;
         let mut pieces = Vec::new();
-        for cell in Cells::new(&self.prepared.field, &passage.segment, cuts) {
+        for cell in Cells::new(&self.prepared.field, &passage.segment, cuts).filter(|cell| !cell.is_gap) {
             pieces.clear();
             split(&cell, &scene.classification, &mut pieces);
             for piece in &pieces {

@@ -28,6 +28,10 @@ impl Renderer<'_> {
     fn crossing(&self, passage: &Passage, isovalue: f64) -> Option<f64> {
         let mut inside = None;
         for cell in Cells::new(&self.prepared.field, &passage.segment, Cuts::Centers) {
+            if cell.is_gap {
+                inside = None;
+                continue;
+            }
             let side = Sides::new(&cell.values, isovalue);
             let began = *inside.get_or_insert(side.is_inside(0.0));
             if let Some(u) = side.first_change(began) {

@@ -9,17 +9,21 @@ use crate::scene::Method;
 impl Renderer<'_> {
     pub(super) fn project(&self, passage: &Passage) -> PixelResult {
         let field = &self.prepared.field;
-        let cells = Cells::new(field, &passage.segment, Cuts::Centers);
-        // Cells cover fractions 0..1, so this sum is the mean.
-        let mean = |cells: Cells<'_>| cells.map(|cell| (cell.to - cell.from) * cell.values.mean()).sum::<f64>();
+        let cells = || Cells::new(field, &passage.segment, Cuts::Centers).filter(|cell| !cell.is_gap);
+        let covered: f64 = cells().map(|cell| cell.to - cell.from).sum();
+        if covered == 0.0 {
+            return PixelResult::NOTHING;
+        }
+        // Over the part of the way that has values.
+        let mean = || cells().map(|cell| (cell.to - cell.from) * cell.values.mean()).sum::<f64>() / covered;
         let (value, fraction) = match self.prepared.scene.method {
-            Method::Mip => extreme(cells, 1.0),
-            Method::MinIp => extreme(cells, -1.0),
+            Method::Mip => extreme(cells(), 1.0),
+            Method::MinIp => extreme(cells(), -1.0),
             Method::Sum => {
-                let share = field.range().normalise(mean(cells)) * passage.length;
+                let share = field.range().normalise(mean()) * passage.length * covered;
                 (field.range().denormalise(share), 0.0)
             }
-            _ => (mean(cells), 0.0),
+            _ => (mean(), 0.0),
         };
         let material = self.prepared.scene.classification.evaluate(value);
         let [r, g, b] = material.color.map(|c| c * material.opacity);

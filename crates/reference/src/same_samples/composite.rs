@@ -8,7 +8,7 @@ impl Renderer<'_> {
     /// Composites the samples of a ray front to back.
     pub(super) fn composite(&self, path: &Path) -> PixelResult {
         let mut result = PixelResult::NOTHING;
-        for sample in path.lattice.samples() {
+        for sample in self.samples(path) {
             let texture = path.texture(sample.position);
             let material = self.prepared.scene.classification.evaluate(self.prepared.field.at_texture(texture));
             if material.opacity <= 0.0 {

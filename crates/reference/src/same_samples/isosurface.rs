@@ -31,17 +31,21 @@ impl Renderer<'_> {
     }
 
     /// Position of the first crossing between entry, samples and exit, in steps. A ray that enters inside is not cut there: it
-    /// crosses where it comes out.
+    /// crosses where it comes out; nothing is crossed where the field has no value.
     fn crossing(&self, path: &Path, isovalue: f64, refinement: Refinement) -> Option<f64> {
         let at = |position: f64| Point { position, excess: self.value(path, position) - isovalue };
-        let mut previous = at(0.0);
+        let mut previous = Some(at(0.0)).filter(|_| !self.in_gap(path, 0.0));
         let samples = path.lattice.samples().map(|sample| sample.position);
         for position in samples.chain(std::iter::once(path.lattice.length)) {
+            if self.in_gap(path, position) {
+                previous = None;
+                continue;
+            }
             let current = at(position);
-            if current.is_inside() != previous.is_inside() {
+            if let Some(previous) = previous.filter(|previous| current.is_inside() != previous.is_inside()) {
                 return Some(refine(at, previous, current, refinement));
             }
-            previous = current;
+            previous = Some(current);
         }
         None
     }

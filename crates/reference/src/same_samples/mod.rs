@@ -80,6 +80,16 @@ impl<'a> Renderer<'a> {
         })
     }
 
+    /// The samples of a ray at which the field has a value.
+    fn samples<'p>(&'p self, path: &'p Path) -> impl Iterator<Item = LatticeSample> + 'p {
+        path.lattice.samples().filter(|sample| !self.in_gap(path, sample.position))
+    }
+
+    /// Whether the field has no value at `position` steps from the entry.
+    fn in_gap(&self, path: &Path, position: f64) -> bool {
+        self.prepared.field.in_gap(path.texture(position))
+    }
+
     /// The field at `position` steps from the entry, in data units.
     fn value(&self, path: &Path, position: f64) -> f64 {
         self.prepared.field.at_texture(path.texture(position))

@@ -7,6 +7,10 @@ use crate::scene::Method;
 impl Renderer<'_> {
     /// Reduces the samples of a ray to one value and classifies it over one reference length.
     pub(super) fn project(&self, path: &Path) -> PixelResult {
+        let covered: f64 = self.samples(path).map(|sample| sample.length).sum();
+        if covered == 0.0 {
+            return PixelResult::NOTHING;
+        }
         let (value, position) = match self.prepared.scene.method {
             Method::Mip => self.extreme(path, |value, best| value > best),
             Method::MinIp => self.extreme(path, |value, best| value < best),
@@ -14,7 +18,7 @@ impl Renderer<'_> {
                 let share = self.integral(path, |value| self.prepared.field.range().normalise(value)) * path.step;
                 (self.prepared.field.range().denormalise(share), 0.0)
             }
-            _ => (self.integral(path, |value| value) / path.lattice.length, 0.0),
+            _ => (self.integral(path, |value| value) / covered, 0.0),
         };
         let material = self.prepared.scene.classification.evaluate(value);
         let [r, g, b] = material.color.map(|c| c * material.opacity);
@@ -23,12 +27,12 @@ impl Renderer<'_> {
 
     /// The sample that none other is `better` than, the first of such, and its position in steps.
     fn extreme(&self, path: &Path, better: fn(f64, f64) -> bool) -> (f64, f64) {
-        let samples = path.lattice.samples().map(|sample| (self.value(path, sample.position), sample.position));
+        let samples = self.samples(path).map(|sample| (self.value(path, sample.position), sample.position));
         samples.reduce(|best, next| if better(next.0, best.0) { next } else { best }).unwrap_or((0.0, 0.0))
     }
 
     /// The integral of a function of the value along the ray, over steps.
     fn integral(&self, path: &Path, of: impl Fn(f64) -> f64) -> f64 {
-        path.lattice.samples().map(|sample| of(self.value(path, sample.position)) * sample.length).sum()
+        self.samples(path).map(|sample| of(self.value(path, sample.position)) * sample.length).sum()
     }
 }

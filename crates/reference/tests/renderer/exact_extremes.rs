@@ -192,6 +192,34 @@ fn worlds_of_any_size() {
     }
 }
 
+/// Along x, the cells at a voxel without value are left out: two of six.
+#[test]
+fn gaps_are_left_out() {
+    let values = [0.25, 0.25, f64::NAN, 0.25, 0.75, 0.75];
+    let volume = cube(&values, [6, 1, 1]);
+    let mut scene = Scene::new(&volume, uniform([1.0; 3], 2.0), along_x(0.4, 0.3), [1, 1]);
+    assert!((pixel(&scene)[3] - homogeneous_opacity(2.0, 4.0 / 6.0)).abs() < 1e-14);
+    // Cells cover 0.25 for one and a half voxels, a ramp for one and 0.75 for one and a half.
+    let knots = vec![Knot::new(0.0, [0.0; 3], 0.5), Knot::new(1.0, [1.0; 3], 0.5)];
+    (scene.method, scene.classification) = (Method::Mean, TransferFunction { knots });
+    assert!((pixel(&scene)[0] / pixel(&scene)[3] - 0.5).abs() < 1e-14);
+    scene.rate = 6000.0;
+    let sampled = same_samples::render(&scene).expect("the scene makes sense").pixel(0, 0);
+    assert!((sampled[0] / sampled[3] - 0.5).abs() < 1e-4);
+    // No surface is crossed in a gap: the ray meets the one behind.
+    scene.method = Method::Isosurface { value: 0.2, refinement: Refinement::Linear };
+    assert_eq!(pixel(&scene), [0.0; 4]);
+    scene.method = Method::Isosurface { value: 0.5, refinement: Refinement::Linear };
+    let depth = exact::render(&scene).expect("the scene makes sense").depth[0];
+    assert_eq!(same_samples::render(&scene).expect("the scene makes sense").depth[0] < MISS, depth < MISS);
+    let all = cube(&[f64::NAN; 8], [2; 3]);
+    for method in ALL {
+        let scene = Scene { method, ..Scene::new(&all, uniform([1.0; 3], 2.0), along_x(0.4, 0.3), [1, 1]) };
+        assert_eq!(pixel(&scene), [0.0; 4]);
+        assert_eq!(same_samples::render(&scene).expect("the scene makes sense").pixel(0, 0), [0.0; 4]);
+    }
+}
+
 #[test]
 fn broken_voxels_and_empty_functions() {
     let values: Vec<f64> =

@@ -1,7 +1,9 @@
 //! The volume itself: checks, ranges, values that are not finite.
 
 use glam::{DAffine3, DVec3};
-use rayloom_volume::{ElementType, ValueRange, Volume, VolumeError, VolumeRole, Voxels, fraction};
+use rayloom_volume::{
+    ElementType, Gaps, Operator, ValueRange, Volume, VolumeError, VolumeRole, Voxels, fraction, gradient_volume,
+};
 
 use crate::files::{DIMS, voxels};
 
@@ -59,6 +61,28 @@ fn values_that_are_not_finite_stay_out_of_range_and_sight() {
     let nothing = line(vec![f64::NAN; 3]);
     assert_eq!((nothing.ranges(), nothing.non_finite()), (&[ValueRange::new(0.0, 0.0)][..], 3));
     assert_eq!(nothing.normalised(0), [0.0; 3]);
+}
+
+#[test]
+fn gaps_are_the_cells_at_voxels_without_value() {
+    let mut values = vec![1.0; 60];
+    values[(2 * 4 + 1) * 5 + 3] = f64::NAN;
+    let volume = Volume::new("gap", [5, 4, 3], 1, Voxels::F64(values), DAffine3::IDENTITY).unwrap();
+    let gaps = Gaps::of(&volume, 0).unwrap();
+    let touched = |index: [f64; 3]| gaps.contains(index);
+    assert_eq!(gaps.cells.iter().filter(|&&cell| cell == 1).count(), 8);
+    assert!(touched([2.0, 0.0, 1.0]) && touched([3.99, 1.99, 2.4]) && touched([2.5, -0.4, 1.5]));
+    assert!(
+        !touched([1.99, 0.5, 1.5])
+            && !touched([4.0, 0.5, 1.5])
+            && !touched([2.5, 2.0, 1.5])
+            && !touched([2.5, 0.5, 0.99])
+    );
+    assert_eq!(Gaps::of(&line(vec![1.0, f64::INFINITY]), 0), None);
+    // A gradient volume keeps what has no value.
+    let gradients = gradient_volume(&volume, 0, Operator::CentralDifferences).unwrap();
+    assert_eq!(Gaps::of(&gradients, 3), Some(gaps));
+    assert!(Gaps::of(&gradients, 0).is_none());
 }
 
 #[test]
