@@ -2,25 +2,11 @@
 
 mod window;
 
-use egui::{Event, Key, Modifiers, Pos2, Rect, Vec2};
-use egui_kittest::Harness;
+use egui::{Event, Key, Modifiers, Pos2, Vec2};
 use egui_kittest::kittest::Queryable;
-use rayloom_studio::{Options, Studio};
+use rayloom_studio::Options;
+use window::nodes::{self, Window, add, drag, drag_and_drop, key, on_canvas, socket, wire};
 use window::{flagship, keep_picture, studio, wait_for};
-
-/// The node canvas, without the border.
-fn canvas(window: &Window) -> Rect {
-    let tab = window.get_by_label("Network").rect();
-    Rect::from_min_max(tab.left_bottom() + Vec2::splat(20.0), window.get_by_label("Show all").rect().right_bottom())
-}
-
-/// A place on the canvas, by its share of the width and height.
-fn on_canvas(window: &Window, (x, y): (f32, f32)) -> Pos2 {
-    let canvas = canvas(window);
-    canvas.min + canvas.size() * Vec2::new(x, y)
-}
-
-type Window = Harness<'static, Studio>;
 
 const SOURCE_TO_CANVAS: [&str; 6] = [
     "volume_generator.volume -> cube_proxy.volume",
@@ -39,61 +25,11 @@ fn text(window: &Window) -> String {
     window.state().session.document.text()
 }
 
-fn key(window: &mut Window, modifiers: Modifiers, key: Key) {
-    window.key_press_modifiers(modifiers, key);
-    window.run_steps(4);
-}
-
-/// A point just outside of the node at a socket: pressed there, a wire begins; pressed on the node, the node moves.
-fn socket(window: &Window, label: &str) -> Pos2 {
-    let rect = window.get_by_label(label).rect();
-    let outwards = if label.starts_with("input") { -0.35 } else { 0.35 };
-    rect.center() + Vec2::new(outwards * rect.width(), 0.0)
-}
-
-/// Drags and leaves the button pressed.
-fn drag(window: &mut Window, from: Pos2, to: Pos2) {
-    window.hover_at(from);
-    window.run_steps(2);
-    window.drag_at(from);
-    window.run_steps(2);
-    for part in [0.3, 0.7, 1.0, 1.0] {
-        window.hover_at(from.lerp(to, part));
-        window.run_steps(2);
-    }
-}
-
-fn drag_and_drop(window: &mut Window, from: Pos2, to: Pos2) {
-    drag(window, from, to);
-    window.drop_at(to);
-    window.run_steps(4);
-}
-
-fn wire(window: &mut Window, wire: &str) {
-    let (from, to) = wire.split_once(" -> ").expect("a wire");
-    let (from, to) = (socket(window, &format!("output {from}")), socket(window, &format!("input {to}")));
-    drag_and_drop(window, from, to);
-}
-
-/// Adds a processor with the palette, at a place.
-fn add(window: &mut Window, search: &str, at: Pos2) {
-    window.hover_at(at);
-    window.run_steps(2);
-    key(window, Modifiers::NONE, Key::Space);
-    window.event(Event::Text(search.to_owned()));
-    window.run_steps(3);
-    key(window, Modifiers::NONE, Key::Enter);
-}
-
 /// The network from source to canvas, from nothing.
 fn chain() -> Window {
     let mut window = studio(Options::default());
     window.run_steps(4);
-    // Small enough for everything to be in view.
-    window.hover_at(canvas(&window).left_top());
-    window.run_steps(2);
-    window.event(Event::Zoom(0.6));
-    window.run_steps(3);
+    nodes::zoom_out(&mut window);
     let places =
         [(0.2, 0.15), (0.2, 0.45), (0.5, 0.45), (0.6, 0.75), (0.85, 0.55)].map(|place| on_canvas(&window, place));
     let names = ["volume gen", "cube", "entry", "ray tra", "canvas"];

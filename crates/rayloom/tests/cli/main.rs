@@ -2,7 +2,10 @@
 
 mod documents;
 mod failures;
+mod flagship;
 mod listings;
 mod measuring;
 mod pictures;
 mod program;
+#[path = "../../../studio/tests/window/mod.rs"]
+mod window;

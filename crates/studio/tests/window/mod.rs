@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "every test program uses its own part")]
 
+pub mod nodes;
+
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 

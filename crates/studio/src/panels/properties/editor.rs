@@ -34,6 +34,8 @@ pub(super) struct Tools {
     pub planes: BTreeMap<Address, transfer_function_2d::State>,
     /// Shader texts that are shown.
     pub opened: BTreeSet<Address>,
+    /// Values that are edited as text.
+    pub texts: BTreeMap<Address, String>,
     /// Texts that are not applied yet.
     pub drafts: BTreeMap<Address, String>,
     /// What was wrong with what was typed last.

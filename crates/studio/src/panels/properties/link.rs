@@ -19,6 +19,10 @@ pub(super) fn menu(ui: &mut Ui, decl: &PropertyDecl, address: &Address, surround
         ui.ctx().copy_text(address.to_string());
         ui.close();
     }
+    if ui.button("Edit as text").on_hover_text("Type or paste the value").clicked() {
+        super::as_text::open(decl, surroundings);
+        ui.close();
+    }
     if !surroundings.authoring {
         return;
     }

@@ -2,6 +2,7 @@
 //! generated from the declarations.
 
 mod action;
+mod as_text;
 mod camera;
 mod choice;
 mod editor;

@@ -81,6 +81,8 @@ fn show(ui: &mut Ui, decl: &PropertyDecl, text: Option<&PropertyDecl>, surroundi
             let edited = editor::show(ui, decl, &value, surroundings);
             surroundings.actions.extend(edited.map(|value| Action::Set(address.clone(), value)));
         }
+        let typed = super::as_text::show(ui, decl, surroundings);
+        surroundings.actions.extend(typed.map(|value| Action::Set(address.clone(), value)));
         editor::complaint(ui, decl, surroundings);
         if let Some(text) = text {
             super::shader_text::show(ui, text, surroundings);
