@@ -11,7 +11,7 @@ use crate::device::Complaints;
 use crate::dialogs::Chooser;
 use crate::display::{Display, gpu_of};
 use crate::engine::Engine;
-use crate::files::{self, Files, Folders};
+use crate::files::{self, Files, Folders, Preferences, Settings};
 use crate::palette::{Chosen, Palette};
 use crate::panels::{self, Pane, Panels};
 use crate::session::{Mode, Session, Severity};
@@ -40,6 +40,7 @@ pub struct Studio {
     pub(crate) tiles: Tree<Pane>,
     pub(crate) palette: Palette,
     pub(crate) key_list: KeyList,
+    preferences: Preferences,
     complaints: Complaints,
 }
 
@@ -70,13 +71,21 @@ impl Studio {
             session.tell(Severity::Error, failure.to_string());
         }
         let files = Files::new(options.folders.as_ref(), &mut session, &creation.egui_ctx);
+        let (settings, problems) = options.folders.as_ref().map(Settings::load).unwrap_or_default();
+        problems.into_iter().for_each(|problem| session.tell(Severity::Note, problem));
+        if options.folders.is_some() {
+            settings.apply(&creation.egui_ctx);
+        }
+        let tiles = settings.layout.clone().unwrap_or_else(panels::default_layout);
+        let preferences = Preferences::new(settings, options.folders.as_ref());
         Ok(Self {
             session,
             files,
             panels: Panels::default(),
-            tiles: panels::default_layout(),
+            tiles,
             palette: Palette::default(),
             key_list: KeyList::default(),
+            preferences,
             complaints,
         })
     }
@@ -211,6 +220,9 @@ impl eframe::App for Studio {
             panels::open(&mut self.tiles, pane);
         }
         self.files.end_frame(&mut self.session);
+        if let Some(problem) = self.preferences.follow(&context, &self.tiles) {
+            self.session.tell(Severity::Error, problem);
+        }
         self.session.end_frame(&context);
         context.send_viewport_cmd(egui::ViewportCommand::Title(self.title()));
     }

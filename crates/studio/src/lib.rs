@@ -43,8 +43,13 @@ pub use visualization::{Application, Change, Exposed, Group, Layout, Preset};
 /// # Errors
 /// There is no display or no graphics device.
 pub fn run(options: Options) -> Result<(), eframe::Error> {
+    let (settings, _) = options.folders.as_ref().map(files::Settings::load).unwrap_or_default();
+    let viewport = egui::ViewportBuilder::default()
+        .with_inner_size(settings.window.unwrap_or([1280.0, 800.0]))
+        .with_min_inner_size([640.0, 400.0])
+        .with_maximized(settings.maximized);
     let native = eframe::NativeOptions {
-        viewport: egui::ViewportBuilder::default().with_inner_size([1280.0, 800.0]).with_min_inner_size([640.0, 400.0]),
+        viewport,
         renderer: eframe::Renderer::Wgpu,
         wgpu_options: device::configuration(),
         ..Default::default()

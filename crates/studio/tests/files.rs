@@ -7,9 +7,9 @@ use std::sync::{Arc, Mutex};
 
 use egui::{Key, Modifiers, ViewportCommand, ViewportEvent};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use rayloom_network::Network;
-use rayloom_studio::{Chooser, Options, Studio};
+use rayloom_studio::{Chooser, Folders, Options, Pane, Studio};
 use window::{keep_picture, project, studio, wait_for, wait_until};
 
 type Window = Harness<'static, Studio>;
@@ -177,4 +177,35 @@ impl egui::DroppedFile for Dropped {
     fn bytes(&self) -> Result<Vec<u8>, String> {
         std::fs::read(&self.0).map_err(|error| error.to_string())
     }
+}
+
+#[test]
+fn the_layout_and_recent_files_come_back_and_broken_settings_are_a_note() {
+    let home = tempfile::tempdir().expect("a folder");
+    let folders = Folders::within(home.path());
+    let options = |network: Option<PathBuf>| Options { network, folders: Some(folders.clone()), ..Options::default() };
+    let network = tiny(home.path());
+    let mut window = studio(options(Some(network.clone())));
+    window.run_steps(2);
+    window.state_mut().session.to_open.push(Pane::Budget);
+    window.state_mut().session.to_open.push(Pane::Inspector("a.image".parse().expect("an address")));
+    window.run_steps(4);
+    let list = folders.state.join("recent.json");
+    wait_until(&mut window, |_| list.exists());
+    drop(window);
+    std::fs::remove_file(&network).expect("removed");
+    let mut window = studio(options(None));
+    window.run_steps(4);
+    assert!(window.query_by_label("Frame budget").is_some(), "the panel that was open is not");
+    assert!(window.query_by_label("a.image").is_none(), "a panel of another network is open");
+    window.get_by_label("File").click();
+    window.run_steps(3);
+    window.get_by_label_contains("Open recent").hover();
+    wait_for(&mut window, "tiny.json");
+    assert!(window.get_by_label("tiny.json").accesskit_node().is_disabled(), "a file that is gone can be opened");
+    drop(window);
+    std::fs::write(folders.config.join("settings.json"), "{\"layout\": 5, \"scale\": 1.25}").expect("written");
+    let mut window = studio(options(None));
+    wait_for(&mut window, "the layout makes no sense here");
+    assert_eq!(window.ctx.zoom_factor(), 1.25, "what makes sense is left out with what does not");
 }

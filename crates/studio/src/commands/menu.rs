@@ -6,7 +6,7 @@ use super::{Command, MENUS};
 use crate::app::Studio;
 
 /// Shows the menu bar; the command that was chosen is to be run.
-pub fn menu_bar(ui: &mut Ui, studio: &Studio) -> Option<&'static Command> {
+pub fn menu_bar(ui: &mut Ui, studio: &mut Studio) -> Option<&'static Command> {
     let mut chosen = None;
     egui::MenuBar::new().ui(ui, |ui| {
         for menu in MENUS {
@@ -19,6 +19,9 @@ pub fn menu_bar(ui: &mut Ui, studio: &Studio) -> Option<&'static Command> {
                         if item(ui, studio, command) {
                             chosen = Some(command);
                         }
+                    }
+                    if let Some(more) = menu.more.filter(|_| index == 0) {
+                        more(ui, studio);
                     }
                 }
             });
@@ -38,4 +41,27 @@ fn item(ui: &mut Ui, studio: &Studio, command: &Command) -> bool {
         None => button,
     };
     ui.add_enabled(command.is_enabled(studio), button).on_hover_text(command.help).clicked()
+}
+
+/// The files opened lately. Those that are gone are dimmed.
+pub(super) fn recent_files(ui: &mut Ui, studio: &mut Studio) {
+    let mut chosen = None;
+    ui.menu_button("Open recent", |ui| {
+        let recent = studio.files.recent(ui.ctx());
+        if recent.is_empty() {
+            ui.weak("none yet");
+        }
+        for file in recent {
+            let name = file.path.file_name().unwrap_or_default().to_string_lossy();
+            let folder = file.path.parent().unwrap_or(&file.path).display().to_string();
+            let response = ui.add_enabled(file.exists, Button::new(name.as_ref()));
+            let gone = format!("{folder}\nThe file is no longer there.");
+            if response.on_hover_text(&folder).on_disabled_hover_text(gone).clicked() {
+                chosen = Some(file.path.clone());
+            }
+        }
+    });
+    if let Some(path) = chosen {
+        studio.files.open(&path, &mut studio.session, ui.ctx());
+    }
 }

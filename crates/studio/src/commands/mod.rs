@@ -49,6 +49,8 @@ pub struct Menu {
     pub title: &'static str,
     /// Commands, with a line between groups.
     pub groups: &'static [&'static [Command]],
+    /// What else belongs to the first group, and is no command.
+    pub more: Option<fn(&mut egui::Ui, &mut Studio)>,
 }
 
 impl Menu {

@@ -25,10 +25,10 @@ const fn ctrl_shift(key: Key) -> KeyboardShortcut {
 
 /// All commands by menu.
 pub const MENUS: &[Menu] = &[
-    Menu { title: "File", groups: FILE },
-    Menu { title: "Edit", groups: EDIT },
-    Menu { title: "View", groups: VIEW },
-    Menu { title: "Help", groups: HELP },
+    Menu { title: "File", groups: FILE, more: Some(super::menu::recent_files) },
+    Menu { title: "Edit", groups: EDIT, more: None },
+    Menu { title: "View", groups: VIEW, more: None },
+    Menu { title: "Help", groups: HELP, more: None },
 ];
 
 const FILE: &[&[Command]] = &[

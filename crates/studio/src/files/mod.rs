@@ -5,8 +5,10 @@ mod bar;
 mod folders;
 mod keeper;
 mod question;
+mod recent;
 mod recovery;
 mod rescue;
+mod settings;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -20,10 +22,13 @@ use crate::document::Document;
 use crate::later::Later;
 use crate::session::{Session, Severity};
 use question::Decision;
+use recent::RecentFiles;
 use rescue::Rescue;
 
 pub use folders::Folders;
+pub use recent::Recent;
 pub use recovery::{Abandoned, Recovery};
+pub use settings::{Preferences, Settings};
 
 /// What a network file is called until its author names it.
 const UNNAMED: &str = "network.json";
@@ -52,7 +57,6 @@ enum Work {
 }
 
 /// What goes on with the document's file.
-#[derive(Default)]
 pub struct Files {
     work: Option<Work>,
     /// Waits for the user to say what becomes of the changes.
@@ -62,6 +66,7 @@ pub struct Files {
     /// Whether the window may close now.
     may_close: bool,
     rescue: Rescue,
+    recent: RecentFiles,
 }
 
 impl Files {
@@ -72,7 +77,21 @@ impl Files {
             session.tell(Severity::Error, problem);
             None
         });
-        Self { rescue: rescue.unwrap_or_default(), ..Self::default() }
+        let mut recent = RecentFiles::new(folders.map(|folders| folders.state.as_path()));
+        session.document.path().into_iter().for_each(|path| recent.add(path));
+        Self {
+            work: None,
+            question: None,
+            after_saving: None,
+            may_close: false,
+            rescue: rescue.unwrap_or_default(),
+            recent,
+        }
+    }
+
+    /// The files opened lately, newest first.
+    pub fn recent(&mut self, context: &Context) -> &[Recent] {
+        self.recent.list(context)
     }
 
     /// Whether the user has to decide something before anything else.
@@ -146,11 +165,14 @@ impl Files {
         if let Some(path) = dropped_network(context) {
             self.open(&path, session, context);
         }
+        if let Some(problem) = self.recent.follow(context) {
+            session.tell(Severity::Error, problem);
+        }
         match self.work.take() {
             None => {}
             Some(Work::Opening(task)) => match task.poll() {
                 Poll::Pending => self.work = Some(Work::Opening(task)),
-                Poll::Ready(opened) => take_in_opened(opened.flatten(), session),
+                Poll::Ready(opened) => self.take_in_opened(opened.flatten(), session),
             },
             Some(Work::Saving(task)) => match task.poll() {
                 Poll::Pending => self.work = Some(Work::Saving(task)),
@@ -236,6 +258,17 @@ impl Files {
         self.work = Some(Work::Saving(start(session)));
     }
 
+    fn take_in_opened(&mut self, opened: Option<Opened>, session: &mut Session) {
+        match opened {
+            None => {}
+            Some(Ok((document, warnings))) => {
+                document.path().into_iter().for_each(|path| self.recent.add(path));
+                session.show(document, &warnings);
+            }
+            Some(Err(error)) => session.tell(Severity::Error, error.to_string()),
+        }
+    }
+
     fn take_in_saved(&mut self, saved: Option<Saved>, session: &mut Session, context: &Context) {
         let next = self.after_saving.take();
         match saved {
@@ -243,6 +276,7 @@ impl Files {
             Some(Err(error)) => session.tell(Severity::Error, error.to_string()),
             Some(Ok((path, network))) => {
                 session.tell(Severity::Note, format!("saved {}", path.display()));
+                self.recent.add(&path);
                 session.document.saved_as(path, &network);
                 if let Some(next) = next {
                     self.leave(next, session, context);
@@ -264,14 +298,6 @@ fn dropped_network(context: &Context) -> Option<PathBuf> {
         input.raw.dropped_files = others;
         networks.first().map(|file| file.path().to_owned())
     })
-}
-
-fn take_in_opened(opened: Option<Opened>, session: &mut Session) {
-    match opened {
-        None => {}
-        Some(Ok((document, warnings))) => session.show(document, &warnings),
-        Some(Err(error)) => session.tell(Severity::Error, error.to_string()),
-    }
 }
 
 fn write(path: PathBuf, network: Network) -> Saved {

@@ -13,6 +13,7 @@ pub(crate) mod properties;
 
 use egui_tiles::{Linear, LinearDir, TileId, Tiles, Tree};
 use rayloom_network::Address;
+use serde::{Deserialize, Serialize};
 
 use crate::session::Session;
 use crate::visualization::Visualization;
@@ -25,7 +26,8 @@ pub const GESTURES: &[(&str, &[(&str, &str)])] =
     &[("On the node canvas", network::GESTURES), ("On a picture", canvas::GESTURES)];
 
 /// Which panel a tile holds.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Pane {
     /// The processors that can be added.
     Processors,
@@ -44,10 +46,16 @@ pub enum Pane {
     /// What visualization mode shows.
     Application,
     /// What is on an outport, kept in sight.
+    #[serde(skip)]
     Inspector(Address),
 }
 
 impl Pane {
+    /// Whether it makes sense with any network, and so belongs to the layout that is kept.
+    pub fn is_lasting(&self) -> bool {
+        !matches!(self, Self::Inspector(_))
+    }
+
     /// Text on the tab.
     pub fn title(&self) -> String {
         match self {
