@@ -11,6 +11,8 @@ struct Parameters {
     show: u32,
     // Side of a square of the checkerboard behind colours, pixels; 0: black.
     checker: u32,
+    // 1: values outside of the range, or of 0 to 1 where the picture has no range of its own, are marked.
+    mark: u32,
 }
 
 @group(0) @binding(0) var<uniform> parameters: Parameters;
@@ -19,6 +21,8 @@ struct Parameters {
 @group(0) @binding(3) var result: texture_storage_2d<rgba8unorm, write>;
 
 const NOT_A_NUMBER = vec3f(1.0, 0.0, 1.0);
+const BELOW = vec3f(0.1, 0.3, 1.0);
+const ABOVE = vec3f(1.0, 0.15, 0.1);
 const MISS = 3.0e38;
 
 // WGSL may assume that NaN and infinity do not occur; their bits tell.
@@ -46,17 +50,27 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     }
     let texel = textureLoad(image, id.xy, 0);
     var color = vec3f(0.0);
+    var low = any(texel < vec4f(0.0));
+    var high = any(texel > vec4f(1.0));
     var finite = is_finite(texel.x) && is_finite(texel.y) && is_finite(texel.z) && is_finite(texel.w);
     if parameters.show == DEPTH {
         let distance = textureLoad(depth, id.xy, 0).x;
         finite = is_finite(distance);
+        low = distance < parameters.range.x;
+        high = distance > parameters.range.y && distance < MISS;
         color = select(backdrop(id.xy), 1.0 - grey(distance), distance < MISS);
     } else if parameters.show == COORDINATES {
         color = select(backdrop(id.xy), texel.rgb, texel.a > 0.0);
     } else if parameters.show == COLORS {
         color = texel.rgb + (1.0 - texel.a) * backdrop(id.xy);
     } else {
-        color = grey(texel[parameters.show - 1u]);
+        let value = texel[parameters.show - 1u];
+        low = value < parameters.range.x;
+        high = value > parameters.range.y;
+        color = grey(value);
     }
-    textureStore(result, id.xy, vec4f(select(NOT_A_NUMBER, clamp(color, vec3f(0.0), vec3f(1.0)), finite), 1.0));
+    color = clamp(color, vec3f(0.0), vec3f(1.0));
+    color = select(color, BELOW, parameters.mark == 1u && low);
+    color = select(color, ABOVE, parameters.mark == 1u && high);
+    textureStore(result, id.xy, vec4f(select(NOT_A_NUMBER, color, finite), 1.0));
 }

@@ -153,11 +153,17 @@ impl Camera {
 
     /// Scales the distance to the focus (perspective) or the height (orthographic) by `factor`, which should be positive.
     pub fn zoom(&mut self, factor: f64) {
+        self.zoom_about(self.focus, factor);
+    }
+
+    /// Like [`Camera::zoom`], but around a world point, which stays where it is seen: focus and eye move to it or away from it.
+    pub fn zoom_about(&mut self, point: [f64; 3], factor: f64) {
         if let Projection::Orthographic { height } = &mut self.projection {
             *height *= factor;
         }
-        let focus = DVec3::from(self.focus);
-        self.position = (focus + (DVec3::from(self.position) - focus) * factor).into();
+        let point = DVec3::from(point);
+        let scaled = |at: [f64; 3]| (point + (DVec3::from(at) - point) * factor).into();
+        (self.position, self.focus) = (scaled(self.position), scaled(self.focus));
     }
 
     /// Moves eye and focus by `right` and `up`, world units, parallel to the picture.

@@ -40,6 +40,9 @@ pub struct Look {
     pub checker: u32,
     /// Pixels are squares when the picture is enlarged, not smooth.
     pub sharp: bool,
+    /// Values below the range are blue, those above it red; the range is 0 to 1 for colours and coordinates. What is not finite
+    /// is magenta in any case.
+    pub mark: bool,
 }
 
 #[derive(Clone, Copy, Pod, Zeroable)]
@@ -48,6 +51,8 @@ struct Parameters {
     range: [f32; 2],
     show: u32,
     checker: u32,
+    mark: u32,
+    padding: u32,
 }
 
 impl Look {
@@ -59,12 +64,13 @@ impl Look {
             Layer::Channel(channel) => 1 + u32::from(channel.min(3)),
             Layer::Depth => 5,
         };
-        Parameters { range: self.range.unwrap_or([0.0, 1.0]), show, checker: self.checker }
+        let range = self.range.unwrap_or([0.0, 1.0]);
+        Parameters { range, show, checker: self.checker, mark: self.mark.into(), padding: 0 }
     }
 }
 
 /// Identity of a shown picture: the images in memory and how they are looked at.
-type Key = ([usize; 2], [u32; 5]);
+type Key = ([usize; 2], [u32; 6]);
 
 struct Shown {
     /// Kept alive so that their addresses stay their own.
@@ -95,8 +101,8 @@ impl Display {
     /// The device has no room for it.
     pub fn picture(&mut self, image: &Arc<Image>, look: Look) -> Result<TextureId, GpuError> {
         let parameters = look.parameters(image.kind);
-        let Parameters { range: [black, white], show, checker } = parameters;
-        let bits = [black.to_bits(), white.to_bits(), show, checker, look.sharp.into()];
+        let Parameters { range: [black, white], show, checker, mark, .. } = parameters;
+        let bits = [black.to_bits(), white.to_bits(), show, checker, mark, look.sharp.into()];
         // An image without depth is only asked for its colours; any texture will do in the other's place.
         let depth = image.depth.as_ref().unwrap_or(&image.color);
         let uniform = bytemuck::bytes_of(&parameters);
@@ -108,14 +114,14 @@ impl Display {
     /// # Errors
     /// The device has no room for it.
     pub fn difference(&mut self, images: [&Arc<Image>; 2], gain: f32, sharp: bool) -> Result<TextureId, GpuError> {
-        let bits = [gain.to_bits(), u32::MAX, u32::MAX, u32::MAX, sharp.into()];
+        let bits = [gain.to_bits(), u32::MAX, u32::MAX, u32::MAX, u32::MAX, sharp.into()];
         self.shown((images, bits), sharp, DIFFERENCE, bytemuck::bytes_of(&gain), images.map(|image| &image.color))
     }
 
     /// A picture that is there already, or is computed now.
     fn shown(
         &mut self,
-        (images, bits): ([&Arc<Image>; 2], [u32; 5]),
+        (images, bits): ([&Arc<Image>; 2], [u32; 6]),
         sharp: bool,
         shader: &str,
         parameters: &[u8],

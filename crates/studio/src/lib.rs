@@ -22,6 +22,7 @@ mod quality;
 mod session;
 mod task;
 mod theme;
+mod views;
 mod visualization;
 mod wiring;
 
@@ -33,7 +34,7 @@ pub use document::Document;
 pub use engine::{Engine, Results};
 pub use files::{Abandoned, Folders, Recovery};
 pub use inspect::{ChannelStatistics, Inspection, Pixel, Reading, Statistics, hover, statistics};
-pub use panels::Pane;
+pub use panels::{Navigation, Pane};
 pub use quality::Quality;
 pub use session::{Message, Mode, Session, Severity};
 pub use visualization::{Application, Change, Exposed, Group, Layout, Preset};

@@ -11,7 +11,7 @@ use crate::display::Display;
 use crate::document::Document;
 use crate::engine::Engine;
 use crate::inspect::Inspection;
-use crate::panels::Pane;
+use crate::panels::{Navigation, Pane};
 use crate::quality::Quality;
 
 /// How the window is used.
@@ -74,6 +74,8 @@ pub struct Session {
     pub selection: BTreeSet<String>,
     /// What the user was told, oldest first.
     pub messages: Vec<Message>,
+    /// How cameras are moved.
+    pub navigation: Navigation,
     /// How the window is used.
     pub mode: Mode,
     /// Outports that panels look at in this frame; they are computed although nothing may be connected. Filled anew every frame.
@@ -101,6 +103,7 @@ impl Session {
             wants_palette: false,
             selection: BTreeSet::new(),
             messages: Vec::new(),
+            navigation: Navigation::default(),
             mode: Mode::default(),
             watched: BTreeSet::new(),
             interacting: false,

@@ -2,21 +2,24 @@
 
 mod window;
 
-use egui::{Event, Modifiers, PointerButton, Pos2, Vec2};
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, TouchPhase, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use rayloom_network::{Evaluator, Request, Value};
+use rayloom_network::{Camera, Evaluator, Request, Value};
 use rayloom_processors::{Data, Image, Runner};
-use rayloom_studio::{Options, Pane, Studio};
+use rayloom_studio::{Mode, Options, Pane, Studio};
 
 type Window = Harness<'static, Studio>;
 
-/// A network whose data are computed in a moment.
+/// A network whose data are computed in a moment, and its picture nearly so.
 fn quick() -> Window {
     let mut window = window::studio(Options {
         network: Some(window::project("networks/marschner_lobb.json")),
         ..Options::default()
     });
+    let session = &mut window.state_mut().session;
+    session.set("traversal", "sampling", Value::Text("filtered".into()));
+    session.document.settle();
     settle(&mut window);
     window
 }
@@ -45,6 +48,42 @@ fn drag(window: &mut Window, from: Pos2, steps: &[Vec2]) {
         window.hover_at(from + *step);
         window.step();
     }
+}
+
+fn camera(window: &Window) -> Camera {
+    match window.state().session.network().value("view", "camera") {
+        Some(Value::Camera(camera)) => camera,
+        other => panic!("no camera but {other:?}"),
+    }
+}
+
+fn forward(camera: &Camera) -> [f64; 3] {
+    std::array::from_fn(|axis| (camera.focus[axis] - camera.position[axis]) / camera.distance())
+}
+
+fn near(a: [f64; 3], b: [f64; 3]) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6)
+}
+
+fn key(window: &mut Window, key: Key, pressed: bool) {
+    window.event(Event::Key { key, physical_key: None, pressed, repeat: false, modifiers: Modifiers::NONE });
+    window.step();
+}
+
+fn scroll(window: &mut Window, at: Pos2, points: f32) {
+    window.hover_at(at);
+    window.step();
+    let (unit, delta, phase) = (egui::MouseWheelUnit::Point, Vec2::new(0.0, points), TouchPhase::Move);
+    window.event(Event::MouseWheel { unit, delta, phase, modifiers: Modifiers::NONE });
+    window.run_steps(20);
+}
+
+fn touch(window: &mut Window, phase: TouchPhase, at: [Pos2; 2]) {
+    for (id, pos) in (1..).zip(at) {
+        let (device_id, id) = (egui::TouchDeviceId(1), egui::TouchId::from(id as u64));
+        window.event(Event::Touch { device_id, id, phase, pos, force: None });
+    }
+    window.step();
 }
 
 fn shown(window: &Window) -> std::sync::Arc<Image> {
@@ -102,4 +141,116 @@ fn the_frame_budget_lists_what_ran_and_what_was_kept_and_nodes_tell_what_is_stal
     session.set("background", "first", Value::Color([0.5, 0.2, 0.3, 1.0]));
     window::wait_for(&mut window, "processor background (Background): stale");
     window::keep_picture(&mut window, "stale");
+}
+
+#[test]
+fn the_wheel_zooms_to_the_pointer_and_two_fingers_zoom_and_roll() {
+    let mut window = quick();
+    let (middle, before) = (canvas(&window), camera(&window));
+    scroll(&mut window, middle + Vec2::new(150.0, 0.0), 120.0);
+    let zoomed = camera(&window);
+    assert!(zoomed.distance() < 0.9 * before.distance(), "{zoomed:?}");
+    assert!(near(forward(&zoomed), forward(&before)) && zoomed.up == before.up);
+    assert!(!near(zoomed.focus, before.focus), "it went to the pointer, not to the focus");
+
+    let apart = |half: Vec2| [middle - half, middle + half];
+    touch(&mut window, TouchPhase::Start, apart(Vec2::new(30.0, 0.0)));
+    touch(&mut window, TouchPhase::Move, apart(Vec2::new(31.0, 0.0)));
+    let before = camera(&window);
+    touch(&mut window, TouchPhase::Move, apart(Vec2::new(50.0, 30.0)));
+    touch(&mut window, TouchPhase::Move, apart(Vec2::new(50.0, 30.0)));
+    touch(&mut window, TouchPhase::End, apart(Vec2::new(50.0, 30.0)));
+    let after = camera(&window);
+    assert!(after.distance() < 0.8 * before.distance(), "{before:?} {after:?}");
+    let turn = after.basis()[1].dot(before.basis()[1]).acos();
+    assert!((0.3..0.7).contains(&turn), "rolled by {turn}");
+}
+
+#[test]
+fn walking_goes_where_the_camera_looks_and_the_cube_looks_from_its_sides() {
+    let mut window = quick();
+    let (middle, before) = (canvas(&window), camera(&window));
+    window.hover_at(middle);
+    window.step();
+    key(&mut window, Key::W, true);
+    window.run_steps(20);
+    key(&mut window, Key::W, false);
+    let walked = camera(&window);
+    let way: [f64; 3] = std::array::from_fn(|axis| walked.position[axis] - before.position[axis]);
+    let along: f64 = way.iter().zip(forward(&before)).map(|(way, forward)| way * forward).sum();
+    assert!(along > 1.0 && near(forward(&walked), forward(&before)), "{along} {walked:?}");
+    window.hover_at(middle + Vec2::new(60.0, 0.0));
+    window.run_steps(2);
+    let looked = camera(&window);
+    assert!(near(looked.position, walked.position) && !near(forward(&looked), forward(&walked)));
+    window::keep_picture(&mut window, "walking");
+    key(&mut window, Key::Escape, true);
+    window.hover_at(middle);
+    window.run_steps(2);
+    assert_eq!(camera(&window), looked, "it walks no more");
+
+    let [right, up, _] = looked.basis();
+    let cube = window.get_by_label("orientation cube canvas").rect().center();
+    let top = cube + 22.0 * Vec2::new(right.z as f32, -up.z as f32);
+    window.hover_at(top);
+    window.step();
+    button(&mut window, top, PointerButton::Primary, true);
+    button(&mut window, top, PointerButton::Primary, false);
+    assert!(near(forward(&camera(&window)), [0.0, 0.0, -1.0]), "{:?}", camera(&window));
+    window.hover_at(middle);
+    window.step();
+    key(&mut window, Key::V, true);
+    window.step();
+    assert!(window.query_by_label("orientation cube canvas").is_none());
+}
+
+#[test]
+fn a_turning_camera_goes_on_only_with_inertia() {
+    let mut window = quick();
+    let middle = canvas(&window);
+    let moves: Vec<_> = (1..8).map(|step| Vec2::new(12.0 * step as f32, 0.0)).collect();
+    for inertia in [false, true] {
+        window.state_mut().session.navigation.inertia = inertia;
+        drag(&mut window, middle, &moves);
+        button(&mut window, middle + moves[6], PointerButton::Primary, false);
+        let released = camera(&window);
+        window.run_steps(30);
+        assert_eq!(camera(&window) != released, inertia);
+    }
+    window.run_steps(300);
+    let resting = camera(&window);
+    window.run_steps(10);
+    assert_eq!(camera(&window), resting, "it comes to rest");
+}
+
+#[test]
+fn the_wheel_goes_through_slices_and_a_click_places_the_crosshair_of_all() {
+    let mut window = window::studio(Options {
+        network: Some(window::project("networks/apps/mri_viewer.json")),
+        mode: Mode::Visualization,
+        ..Options::default()
+    });
+    let axial = "canvas_axial";
+    window::wait_until(&mut window, |studio| studio.session.engine.results.canvases.contains_key(axial));
+    let positions = |window: &Window| {
+        ["sagittal", "coronal", "axial"].map(|slice| match window.state().session.network().value(slice, "position") {
+            Some(Value::Float(position)) => position,
+            other => panic!("no position but {other:?}"),
+        })
+    };
+    let before = positions(&window);
+    let middle = window.get_by_label("canvas canvas_axial").rect().center();
+    scroll(&mut window, middle, 24.0);
+    let scrolled = positions(&window);
+    assert!(scrolled[2] > before[2] && scrolled[..2] == before[..2], "{before:?} {scrolled:?}");
+    // To the right of the middle and above it.
+    let at = middle + Vec2::new(40.0, -30.0);
+    window.hover_at(at);
+    window.step();
+    button(&mut window, at, PointerButton::Primary, true);
+    button(&mut window, at, PointerButton::Primary, false);
+    let placed = positions(&window);
+    assert_eq!(placed[2], scrolled[2]);
+    assert!(placed[0] > 0.5 && placed[1] > 0.5 && placed[0] < 1.0 && placed[1] < 1.0, "{placed:?}");
+    window::keep_picture(&mut window, "crosshair");
 }

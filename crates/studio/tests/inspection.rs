@@ -9,7 +9,7 @@ use rayloom_gpu::wgpu::{TextureFormat, TextureUsages};
 use rayloom_gpu::{Gpu, GpuOptions, PipelineCache};
 use rayloom_network::{Address, ImageKind};
 use rayloom_processors::{Image, MISS};
-use rayloom_studio::{Statistics, hover, statistics};
+use rayloom_studio::{Layer, Look, Statistics, hover, statistics};
 
 /// An image of 37 x 21 pixels: red runs from 0 to 1 along x, green is 2 in one pixel, blue is NaN in three, alpha is 1.
 /// Depth runs from 10 to 30 along y; the first column misses.
@@ -98,4 +98,26 @@ fn a_pinned_inspector_reads_the_pixel_under_the_pointer() {
     window::wait_for(&mut harness, "depth ");
     harness.run_steps(3);
     window::keep_picture(&mut harness, "inspectors");
+}
+
+#[test]
+fn pixels_that_do_not_fit_are_marked() {
+    let mut harness = window::harness("networks/marschner_lobb.json", |ui, session| {
+        // The network's own canvas is not in sight.
+        session.shown.insert("nobody".into(), [1, 1]);
+        let image = Arc::new(known_image(session.display.gpu(), ImageKind::Color));
+        let range = Some([0.3, 1.0]);
+        let look = Look { layer: Layer::Channel(1), range, sharp: true, mark: true, ..Look::default() };
+        let picture = session.display.picture(&image, look).expect("a picture");
+        let place = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(370.0, 210.0));
+        let whole = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0));
+        ui.painter().image(picture, place, whole, egui::Color32::WHITE);
+    });
+    harness.run_steps(2);
+    let picture = harness.render().expect("a picture");
+    let at = |x: u32, y: u32| picture.get_pixel(10 * x + 5, 10 * y + 5).0;
+    let [below, above, not_a_number] = [at(20, 12), at(5, 7), at(9, 2)];
+    assert!(below[2] > 200 && below[0] < 60, "0.25 is below 0.3: {below:?}");
+    assert!(above[0] > 200 && above[2] < 60, "2 is above 1: {above:?}");
+    assert!(not_a_number[0] > 200 && not_a_number[2] > 200 && not_a_number[1] < 60, "{not_a_number:?}");
 }

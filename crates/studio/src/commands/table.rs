@@ -160,6 +160,16 @@ const VIEW: &[&[Command]] = &[
         .keys(&[ctrl(Key::Num0)]),
     ],
     &[
+        Command::new("Orientation cube", "Shows in canvases how the world lies; its sides are views.", |studio, _| {
+            studio.session.navigation.cube ^= true;
+        })
+        .ticked(|studio, _| studio.session.navigation.cube),
+        Command::new("Inertia", "A camera that is let go while it turns goes on for a while.", |studio, _| {
+            studio.session.navigation.inertia ^= true;
+        })
+        .ticked(|studio, _| studio.session.navigation.inertia),
+    ],
+    &[
         Command::new("Dark theme", "Light text on dark panels.", |_, context| context.set_theme(ThemePreference::Dark))
             .ticked(|_, context| preference(context) == ThemePreference::Dark),
         Command::new("Light theme", "Dark text on light panels.", |_, context| {

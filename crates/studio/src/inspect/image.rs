@@ -76,7 +76,7 @@ fn small_looks(image: &Image, statistics: Option<&Statistics>) -> Vec<(&'static 
         looks.push(("alpha", Look { layer: Layer::Channel(3), ..Look::default() }));
     }
     if image.depth.is_some() {
-        let look = Look { layer: Layer::Depth, range: depth_range(statistics), checker: CHECKER, sharp: false };
+        let look = Look { layer: Layer::Depth, range: depth_range(statistics), checker: CHECKER, ..Look::default() };
         looks.push(("depth, near is bright", look));
     }
     looks

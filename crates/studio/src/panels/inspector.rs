@@ -33,6 +33,8 @@ struct View {
     /// What differences are multiplied with.
     gain: f32,
     numbers: bool,
+    /// Whether values that do not fit are marked.
+    mark: bool,
     /// The pixel under the pointer.
     pixel: Option<Arc<Pixel>>,
 }
@@ -47,6 +49,7 @@ impl Default for View {
             other: None,
             gain: 10.0,
             numbers: false,
+            mark: false,
             pixel: None,
         }
     }
@@ -111,6 +114,9 @@ impl View {
             if ui.selectable_label(self.zoom == 1.0, "Fit").on_hover_text("Show all of the image.").clicked() {
                 (self.zoom, self.center) = (1.0, Vec2::splat(0.5));
             }
+            ui.toggle_value(&mut self.mark, "Mark").on_hover_text(
+                "Blue: below the range; red: above it (0 to 1 for colours and coordinates); magenta: NaN or infinite.",
+            );
             ui.toggle_value(&mut self.numbers, "Numbers").on_hover_text("Smallest, largest and mean values.");
         });
     }
@@ -186,7 +192,7 @@ impl View {
         let pixel_size = placed.width() / image.size()[0] as f32 * ui.ctx().pixels_per_point();
         let sharp = pixel_size >= SHARP;
         let range = self.range.or(self.automatic_range(numbers));
-        let look = Look { layer: self.layer, range, checker: CHECKER, sharp };
+        let look = Look { layer: self.layer, range, checker: CHECKER, sharp, mark: self.mark };
         let picture = match self.compared(session, image) {
             Some(other) => session.display.difference([image, &other], self.gain, sharp),
             None => session.display.picture(image, look),

@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 use crate::session::Session;
 use crate::visualization::Visualization;
 
+pub use canvas::Navigation;
 pub use dock::open;
 pub use network::Action as NetworkAction;
 

@@ -8,19 +8,82 @@ use glam::DVec3;
 use rayloom_network::{Camera, Projection, Value};
 use rayloom_processors::{Data, Image};
 
+use super::cube;
+use super::walk::Walker;
 use crate::inspect::Pixel;
 use crate::session::{Session, Severity};
+use crate::views::VIEWS;
 
 /// Radians that the camera turns while the pointer crosses the picture.
 const TURN: f64 = PI;
 /// Radians that an arrow key turns, and that a key rolls.
 const STEP: f64 = PI / 12.0;
+/// With inertia: what is left of the turning after a second, and radians a second at which it ends.
+const KEPT: f64 = 0.02;
+const SLOWEST: f64 = 0.03;
+/// Longest time that one frame counts for, seconds.
+const LONGEST_FRAME: f64 = 0.1;
+
+/// What the user prefers, in all canvases.
+#[derive(Clone, Copy, Debug)]
+pub struct Navigation {
+    /// A camera let go while it turns goes on for a while.
+    pub inertia: bool,
+    /// Canvases show the orientation cube.
+    pub cube: bool,
+}
+
+impl Default for Navigation {
+    fn default() -> Self {
+        Self { inertia: false, cube: true }
+    }
+}
+
+/// What keys and the menu do.
+#[derive(Clone, Copy)]
+enum Command {
+    ShowAll,
+    Project,
+    Walk,
+    /// From one of the usual sides.
+    Side(usize),
+    Cube,
+    Inertia,
+    Turn([f64; 2]),
+    Roll(f64),
+}
+
+/// Commands by key, with their names in the menu.
+const COMMANDS: [(Key, &str, Command); 8] = [
+    (Key::A, "Show everything", Command::ShowAll),
+    (Key::O, "Orthographic or perspective", Command::Project),
+    (Key::W, "Walk", Command::Walk),
+    (Key::Num1, "From the front", Command::Side(0)),
+    (Key::Num3, "From the right", Command::Side(3)),
+    (Key::Num7, "From above", Command::Side(4)),
+    (Key::V, "Orientation cube", Command::Cube),
+    (Key::I, "Inertia", Command::Inertia),
+];
+
+/// Keys that are in no menu.
+const KEYS: [(Key, Command); 7] = [
+    (Key::Home, Command::ShowAll),
+    (Key::Q, Command::Roll(-STEP)),
+    (Key::E, Command::Roll(STEP)),
+    (Key::ArrowLeft, Command::Turn([-STEP, 0.0])),
+    (Key::ArrowRight, Command::Turn([STEP, 0.0])),
+    (Key::ArrowUp, Command::Turn([0.0, STEP])),
+    (Key::ArrowDown, Command::Turn([0.0, -STEP])),
+];
 
 /// A camera and what it waits for.
 #[derive(Default)]
 pub(super) struct Held {
     /// The pixel whose surface is to be the centre, once its depth is known.
     centring: Option<(Arc<Pixel>, Camera)>,
+    walker: Option<Walker>,
+    /// Radians a second to the right and up that the camera turns by itself.
+    spin: [f64; 2],
 }
 
 impl Held {
@@ -35,12 +98,24 @@ impl Held {
         [canvas, processor, property]: [&str; 3],
     ) {
         let Some(Value::Camera(before)) = session.network().value(processor, property) else { return };
-
-        let mut camera = before;
         session.interacting |= response.dragged();
-        drag(ui, response, shown, &mut camera);
-        if response.hovered() && !ui.ctx().text_edit_focused() {
-            keys(ui, session, image, &mut camera);
+        let mut camera = before;
+        let size = bounds(session, image).map_or(camera.distance(), |(_, radius)| 2.0 * radius);
+        match &self.walker {
+            Some(walker) => stroll(ui, response, shown, walker, size, &mut camera),
+            None => {
+                drag(ui, response, shown, &mut camera);
+                self.spin(ui, response, shown, session.navigation, &mut camera);
+            }
+        }
+        zoom(ui, response, shown, &mut camera);
+        for command in self.commands(ui, response) {
+            self.apply(command, session, image, &mut camera);
+        }
+        if session.navigation.cube
+            && let Some(seen) = cube::show(ui, shown, canvas, &camera)
+        {
+            camera = seen;
         }
         if response.double_clicked()
             && let Some(pixel) = response.hover_pos().and_then(|pointer| pixel_at(shown, image, pointer))
@@ -54,6 +129,77 @@ impl Held {
             session.interacting = true;
             session.set(processor, property, Value::Camera(camera));
         }
+    }
+
+    /// What keys and the context menu ask for.
+    fn commands(&mut self, ui: &egui::Ui, response: &egui::Response) -> Vec<Command> {
+        let mut commands = Vec::new();
+        response.context_menu(|ui| {
+            for (key, name, command) in COMMANDS {
+                if ui.add(egui::Button::new(name).shortcut_text(key.symbol_or_name())).clicked() {
+                    commands.push(command);
+                }
+            }
+        });
+        let pressed = |key| ui.input(|input| input.modifiers.is_none() && input.key_pressed(key));
+        if self.walker.is_some() {
+            // The other keys walk.
+            self.walker.take_if(|_| pressed(Key::Escape));
+        } else if response.hovered() && !ui.ctx().text_edit_focused() {
+            let listed = COMMANDS.iter().map(|(key, _, command)| (key, command));
+            let all = listed.chain(KEYS.iter().map(|(key, command)| (key, command)));
+            commands.extend(all.filter(|(key, _)| pressed(**key)).map(|(_, command)| *command));
+        }
+        commands
+    }
+
+    fn apply(&mut self, command: Command, session: &mut Session, image: &Image, camera: &mut Camera) {
+        match command {
+            Command::ShowAll => {
+                if let Some((center, radius)) = bounds(session, image) {
+                    *camera = camera.framing(center.into(), radius);
+                }
+            }
+            Command::Project => camera.projection = other_projection(camera),
+            Command::Walk => {
+                self.walker = match self.walker {
+                    Some(_) => None,
+                    None => Some(Walker::start(camera)),
+                }
+            }
+            Command::Side(index) => *camera = VIEWS[index].of(camera),
+            Command::Cube => session.navigation.cube ^= true,
+            Command::Inertia => {
+                session.navigation.inertia ^= true;
+                let state = if session.navigation.inertia { "on" } else { "off" };
+                session.tell(Severity::Note, format!("inertia is {state}"));
+            }
+            Command::Turn([yaw, pitch]) => camera.orbit(yaw, pitch),
+            Command::Roll(angle) => roll(camera, angle),
+        }
+    }
+
+    /// With inertia a camera that was let go while it turned goes on turning, ever slower.
+    fn spin(&mut self, ui: &egui::Ui, response: &egui::Response, shown: Rect, wishes: Navigation, camera: &mut Camera) {
+        if !wishes.inertia || response.is_pointer_button_down_on() {
+            let turning = wishes.inertia && response.dragged_by(PointerButton::Primary);
+            let velocity = ui.input(|input| input.pointer.velocity()) / shown.height().max(1.0);
+            let spin = [f64::from(-velocity.x) * TURN, f64::from(velocity.y) * TURN];
+            self.spin = if turning && ui.input(|input| !input.modifiers.shift) { spin } else { [0.0; 2] };
+            return;
+        }
+        if self.spin[0].hypot(self.spin[1]) < SLOWEST {
+            return;
+        }
+        let time = ui.input(|input| f64::from(input.stable_dt).min(LONGEST_FRAME));
+        camera.orbit(self.spin[0] * time, self.spin[1] * time);
+        self.spin = self.spin.map(|speed| speed * KEPT.powf(time));
+        ui.ctx().request_repaint();
+    }
+
+    /// What the user is to know about the keys just now.
+    pub(super) fn hint(&self) -> Option<&'static str> {
+        self.walker.is_some().then_some("Walking: W A S D, Q down, E up, Shift runs, the pointer looks, Esc ends")
     }
 
     /// The camera that looks at the surface which was double clicked, once its depth is known.
@@ -84,24 +230,29 @@ fn pixel_at(shown: Rect, image: &Arc<Image>, pointer: Pos2) -> Option<Pixel> {
 
 /// The camera moved, neither turned nor brought nearer, so that what a pixel shows at a view depth is its focus.
 fn looking_at(camera: &Camera, size: [u32; 2], at: [u32; 2], depth: f64) -> Camera {
-    let [right, up, forward] = camera.basis();
-    let height = match camera.projection {
-        Projection::Perspective { fov_degrees } => depth * (0.5 * fov_degrees.to_radians()).tan(),
-        Projection::Orthographic { height } => 0.5 * height,
-    };
-    let [width_pixels, height_pixels] = size.map(f64::from);
-    let x = (f64::from(at[0]) + 0.5 - 0.5 * width_pixels) / (0.5 * height_pixels);
-    let y = (0.5 * height_pixels - f64::from(at[1]) - 0.5) / (0.5 * height_pixels);
-    let surface = DVec3::from(camera.position) + forward * depth + right * (x * height) + up * (y * height);
+    let [width, height] = size.map(f64::from);
+    let x = (f64::from(at[0]) + 0.5 - 0.5 * width) / (0.5 * height);
+    let y = (0.5 * height - f64::from(at[1]) - 0.5) / (0.5 * height);
+    let surface = seen_at(camera, [x, y], depth);
     let shift = surface - DVec3::from(camera.focus);
     Camera { position: (DVec3::from(camera.position) + shift).into(), focus: surface.into(), ..*camera }
 }
 
-/// The left button turns, the middle one or Shift moves, the wheel and the right one zoom.
+/// The world point at a view depth that is seen so many half heights of the picture to the right of its middle and above it.
+fn seen_at(camera: &Camera, [x, y]: [f64; 2], depth: f64) -> DVec3 {
+    let [right, up, forward] = camera.basis();
+    let half = match camera.projection {
+        Projection::Perspective { fov_degrees } => depth * (0.5 * fov_degrees.to_radians()).tan(),
+        Projection::Orthographic { height } => 0.5 * height,
+    };
+    DVec3::from(camera.position) + forward * depth + right * (x * half) + up * (y * half)
+}
+
+/// The left button turns, the middle one or Shift moves, the right one zooms.
 fn drag(ui: &egui::Ui, response: &egui::Response, shown: Rect, camera: &mut Camera) {
     let drag = response.drag_delta() / shown.height().max(1.0);
     let (x, y) = (f64::from(drag.x), f64::from(drag.y));
-    let (shift, scroll) = ui.input(|input| (input.modifiers.shift, input.smooth_scroll_delta.y));
+    let shift = ui.input(|input| input.modifiers.shift);
     let height = visible_height(camera);
     if response.dragged_by(PointerButton::Middle) || (response.dragged_by(PointerButton::Primary) && shift) {
         camera.pan(-x * height, y * height);
@@ -110,41 +261,48 @@ fn drag(ui: &egui::Ui, response: &egui::Response, shown: Rect, camera: &mut Came
     } else if response.dragged_by(PointerButton::Secondary) {
         camera.zoom((2.0 * y).exp());
     }
-    if response.hovered() && scroll != 0.0 {
-        camera.zoom(f64::from(-scroll * 0.003).exp());
+}
+
+/// The wheel and two fingers zoom where they are; two fingers also move and roll.
+fn zoom(ui: &egui::Ui, response: &egui::Response, shown: Rect, camera: &mut Camera) {
+    let (touch, scroll, pinch) =
+        ui.input(|input| (input.multi_touch(), input.smooth_scroll_delta.y, f64::from(input.zoom_delta())));
+    let about = |camera: &Camera, at: Pos2| {
+        let from_middle = (at - shown.center()) / (0.5 * shown.height().max(1.0));
+        seen_at(camera, [from_middle.x.into(), f64::from(-from_middle.y)], camera.distance()).into()
+    };
+    if let Some(touch) = touch.filter(|touch| shown.contains(touch.center_pos)) {
+        let moved = touch.translation_delta / shown.height().max(1.0);
+        let height = visible_height(camera);
+        camera.pan(-f64::from(moved.x) * height, f64::from(moved.y) * height);
+        let point = about(camera, touch.center_pos);
+        camera.zoom_about(point, 1.0 / f64::from(touch.zoom_delta).max(1e-3));
+        roll(camera, -f64::from(touch.rotation_delta));
+    } else if let Some(pointer) = response.hover_pos().filter(|_| scroll != 0.0 || pinch != 1.0) {
+        let point = about(camera, pointer);
+        camera.zoom_about(point, f64::from(-scroll * 0.003).exp() / pinch.max(1e-3));
     }
 }
 
-/// What the keys do; see the list under F1.
-fn keys(ui: &egui::Ui, session: &Session, image: &Image, camera: &mut Camera) {
-    let pressed = |key| ui.input(|input| input.modifiers.is_none() && input.key_pressed(key));
-    if pressed(Key::O) {
-        camera.projection = other_projection(camera);
+/// Walking: the keys move, the pointer looks.
+fn stroll(ui: &egui::Ui, response: &egui::Response, shown: Rect, walker: &Walker, size: f64, camera: &mut Camera) {
+    if !ui.ctx().text_edit_focused() {
+        walker.step(ui, size, camera);
     }
-    if (pressed(Key::A) || pressed(Key::Home))
-        && let Some((center, radius)) = bounds(session, image)
-    {
-        *camera = camera.framing(center.into(), radius);
+    let moved = match response.dragged() {
+        true => response.drag_delta(),
+        false if response.hovered() => ui.input(|input| input.pointer.delta()),
+        false => egui::Vec2::ZERO,
+    } / shown.height().max(1.0);
+    if moved != egui::Vec2::ZERO {
+        walker.look([moved.x.into(), moved.y.into()], camera);
     }
-    let turns = [
-        (Key::ArrowLeft, [-STEP, 0.0]),
-        (Key::ArrowRight, [STEP, 0.0]),
-        (Key::ArrowUp, [0.0, STEP]),
-        (Key::ArrowDown, [0.0, -STEP]),
-    ];
-    for (_, [yaw, pitch]) in turns.into_iter().filter(|(key, _)| pressed(*key)) {
-        camera.orbit(yaw, pitch);
-    }
-    for (_, angle) in [(Key::Q, -STEP), (Key::E, STEP)].into_iter().filter(|(key, _)| pressed(*key)) {
-        let [_, up, forward] = camera.basis();
-        camera.up = (glam::DQuat::from_axis_angle(forward, angle) * up).into();
-    }
-    let sides =
-        [(Key::Num1, DVec3::Y, DVec3::Z), (Key::Num3, DVec3::NEG_X, DVec3::Z), (Key::Num7, DVec3::NEG_Z, DVec3::Y)];
-    for (_, forward, up) in sides.into_iter().filter(|(key, ..)| pressed(*key)) {
-        camera.position = (DVec3::from(camera.focus) - forward * camera.distance()).into();
-        camera.up = up.into();
-    }
+}
+
+/// Rolls the camera around its direction.
+fn roll(camera: &mut Camera, angle: f64) {
+    let [_, up, forward] = camera.basis();
+    camera.up = (glam::DQuat::from_axis_angle(forward, angle) * up).into();
 }
 
 /// The other projection with the same height of the picture at the focus, and the eye where it is if a field of view can be
@@ -198,6 +356,20 @@ mod tests {
             assert!((centred.focus[2] - expected).abs() < 1e-2, "{centred:?}");
             assert!((centred.distance() - camera.distance()).abs() < 1e-9);
             assert_eq!(centred.basis(), camera.basis());
+        }
+    }
+
+    #[test]
+    fn zooming_keeps_what_is_under_the_pointer() {
+        for projection in [Projection::Perspective { fov_degrees: 30.0 }, Projection::Orthographic { height: 214.3593 }]
+        {
+            let before = Camera { projection, ..Camera::default() };
+            let point = seen_at(&before, [0.7, -0.3], before.distance());
+            let mut camera = before;
+            camera.zoom_about(point.into(), 0.25);
+            assert!(point.distance(seen_at(&camera, [0.7, -0.3], camera.distance())) < 1e-9, "{camera:?}");
+            assert!((visible_height(&camera) - 0.25 * visible_height(&before)).abs() < 1e-9);
+            assert_eq!(camera.basis(), before.basis());
         }
     }
 

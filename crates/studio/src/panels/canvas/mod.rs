@@ -1,11 +1,13 @@
 //! The picture of a canvas, and what the pointer and keys do in it.
 
 mod camera;
+mod cube;
 mod slice;
+mod walk;
 
 use std::sync::Arc;
 
-use egui::{Color32, FontId, Rect, Sense, Vec2};
+use egui::{Align2, Color32, FontId, Rect, Sense, Vec2};
 use rayloom_network::{Network, PropertyKind, Value};
 use rayloom_processors::Image;
 
@@ -13,18 +15,24 @@ use crate::display::Look;
 use crate::inspect::image::paint;
 use crate::session::{CANVAS, Session};
 use camera::Held;
+pub use camera::Navigation;
 
 /// What keys and the pointer do, for the list of keys.
 pub const GESTURES: &[(&str, &str)] = &[
     ("Drag", "turn; slices: place the crosshair"),
     ("Shift or middle drag", "move"),
-    ("Right drag, wheel", "zoom; slices: the wheel goes through, Ctrl and wheel zoom"),
+    ("Right drag", "zoom"),
+    ("Wheel, pinch", "zoom to the pointer; slices: the wheel goes through, Ctrl and wheel zoom"),
+    ("Two fingers", "move, zoom and roll"),
     ("Double click", "centre on the surface"),
+    ("Right click", "these as a menu"),
     ("A, Home", "show everything"),
     ("O", "orthographic or perspective"),
     ("1, 3, 7", "from the front, the right, above"),
     ("Q, E", "roll"),
     ("Arrows", "turn by 15 degrees"),
+    ("W", "walk: W A S D, Q down, E up, Shift runs, the pointer looks, Esc ends"),
+    ("V, I", "orientation cube, inertia: on or off"),
 ];
 
 /// What the panel remembers.
@@ -77,6 +85,11 @@ impl CanvasPanel {
             }
             Some(Behind::Slice(processor)) => slice::interact(ui, &response, shown, session, &processor),
             None => {}
+        }
+        if let Some(hint) = self.camera.hint() {
+            let at = shown.center_bottom() - Vec2::new(0.0, 16.0);
+            let font = FontId::proportional(13.0);
+            ui.painter().text(at, Align2::CENTER_BOTTOM, hint, font, Color32::from_white_alpha(220));
         }
     }
 

@@ -6,16 +6,7 @@ use rayloom_network::{Camera, Projection, PropertyDecl};
 use super::editor::Surroundings;
 use super::number::Number;
 use super::{upstream, vector};
-
-/// Usual views: name, direction from the focus to the eye, up. World axes are right, anterior, superior.
-const VIEWS: [(&str, [f64; 3], [f64; 3]); 6] = [
-    ("Front", [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]),
-    ("Back", [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]),
-    ("Left", [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]),
-    ("Right", [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]),
-    ("Top", [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]),
-    ("Bottom", [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]),
-];
+use crate::views::VIEWS;
 
 /// Shows a camera; the new one if the user changed it into one that forms an image.
 pub(super) fn show(
@@ -56,9 +47,10 @@ fn views(ui: &mut Ui, camera: &mut Camera, surroundings: &Surroundings<'_>) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
         ui.spacing_mut().button_padding.x = 5.0;
-        for (name, towards, up) in VIEWS {
-            if ui.button(egui::RichText::new(name).size(11.5)).on_hover_text("Keeps focus and distance").clicked() {
-                *camera = seen_from(camera, towards, up);
+        for view in &VIEWS {
+            if ui.button(egui::RichText::new(view.name).size(11.5)).on_hover_text("Keeps focus and distance").clicked()
+            {
+                *camera = view.of(camera);
             }
         }
         let volume = surroundings.volume.as_deref();
@@ -69,13 +61,6 @@ fn views(ui: &mut Ui, camera: &mut Camera, surroundings: &Surroundings<'_>) {
             *camera = camera.framing(center, radius);
         }
     });
-}
-
-/// The same focus and distance, seen from another side.
-fn seen_from(camera: &Camera, towards: [f64; 3], up: [f64; 3]) -> Camera {
-    let distance = camera.distance();
-    let position = std::array::from_fn(|axis| camera.focus[axis] + distance * towards[axis]);
-    Camera { position, up, ..*camera }
 }
 
 /// World height that the picture shows at the focus.
@@ -125,22 +110,6 @@ fn near(ui: &mut Ui, decl: &PropertyDecl, camera: &mut Camera, surroundings: &mu
         }
         None => {
             ui.weak("from the eye on");
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_view_is_valid_and_keeps_focus_and_distance() {
-        let camera = Camera { focus: [1.0, 2.0, 3.0], ..Camera::default() };
-        for (name, towards, up) in VIEWS {
-            let seen = seen_from(&camera, towards, up);
-            assert_eq!(seen.validate(), Ok(()), "{name}");
-            assert_eq!(seen.focus, camera.focus);
-            assert!((seen.distance() - camera.distance()).abs() < 1e-9);
         }
     }
 }
