@@ -20,10 +20,12 @@ mod output;
 pub mod pareto;
 mod plan;
 pub mod probe;
+pub mod rays;
 mod report;
 mod run;
 mod scene;
 mod setting;
+pub mod verify;
 mod views;
 mod yardstick;
 

@@ -10,23 +10,29 @@ use crate::{MeasureError, Measurements, csv, report};
 /// # Errors
 /// The folder cannot be made or a file cannot be written.
 pub fn write_all(folder: &Path, measurements: &Measurements) -> Result<Vec<PathBuf>, MeasureError> {
-    let write_error = |path: &Path| {
-        let path = path.to_owned();
-        move |source| MeasureError::Write { path, source }
-    };
-    std::fs::create_dir_all(folder).map_err(write_error(folder))?;
     let json = serde_json::to_string_pretty(measurements)? + "\n";
     let files = [
         ("measurements.csv", csv::csv(measurements)),
         ("measurements.json", json),
         ("report.html", report::page(measurements)?),
     ];
-    files
-        .into_iter()
-        .map(|(name, text)| {
-            let path = folder.join(name);
-            std::fs::write(&path, text).map_err(write_error(&path))?;
-            Ok(path)
-        })
-        .collect()
+    write_files(folder, files)
+}
+
+/// Writes texts into a folder, which is made if it is not there, and returns their paths.
+pub(crate) fn write_files(
+    folder: &Path,
+    files: impl IntoIterator<Item = (impl AsRef<Path>, String)>,
+) -> Result<Vec<PathBuf>, MeasureError> {
+    let write_error = |path: &Path| {
+        let path = path.to_owned();
+        move |source| MeasureError::Write { path, source }
+    };
+    std::fs::create_dir_all(folder).map_err(write_error(folder))?;
+    let written = files.into_iter().map(|(name, text)| {
+        let path = folder.join(name);
+        std::fs::write(&path, text).map_err(write_error(&path))?;
+        Ok(path)
+    });
+    written.collect()
 }

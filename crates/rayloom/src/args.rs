@@ -36,6 +36,8 @@ pub enum Command {
     /// Measure what speed costs in accuracy: times, samples and errors of many settings, with a page that says what to
     /// choose.
     Measure(MeasureArgs),
+    /// Verify the ray loop on this device: by what power errors fall as steps, voxels and pixels get smaller.
+    Verify(VerifyArgs),
     /// Say whether a network can be rendered, and if not, why. Needs no graphics adapter.
     Check {
         /// The network file (JSON).
@@ -150,6 +152,17 @@ pub struct MeasureArgs {
     /// The folder for measurements.csv, measurements.json and report.html; made if it is not there.
     #[arg(short, long, value_name = "FOLDER")]
     pub output: PathBuf,
+}
+
+/// Arguments of `rayloom verify`.
+#[derive(Debug, Args)]
+pub struct VerifyArgs {
+    /// Only as much as it takes to tell an order: some seconds.
+    #[arg(long)]
+    pub quick: bool,
+    /// Write a page with plots, the plots as SVG files and all errors as JSON into this folder; made if it is not there.
+    #[arg(long, value_name = "FOLDER")]
+    pub report: Option<PathBuf>,
 }
 
 /// Arguments of `rayloom list`.

@@ -17,6 +17,7 @@ mod render;
 mod shader;
 mod stats;
 mod target;
+mod verify;
 
 use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
@@ -45,6 +46,7 @@ fn run(command: Option<&Command>) -> Result<String, Failure> {
     match command {
         Command::Render(args) => render::run(args),
         Command::Measure(args) => measure::run(args),
+        Command::Verify(args) => verify::run(args),
         Command::Check { network } => check::run(network),
         Command::List(args) => list::run(args),
         Command::Shader { network, processor, set } => shader::run(network, processor, set),

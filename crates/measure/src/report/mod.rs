@@ -1,8 +1,9 @@
 //! The page of a measurement: one file, nothing from the network.
 
+pub(crate) mod axis;
 mod picture;
 mod plot;
-mod style;
+pub(crate) mod style;
 mod tables;
 pub(crate) mod text;
 

@@ -1,7 +1,7 @@
 //! The looks of the page.
 
 /// The style sheet.
-pub(super) const STYLE: &str = "
+pub(crate) const STYLE: &str = "
 :root{--ink:#1d2330;--quiet:#667085;--line:#e3e6ec;--best:#c2410c;--other:#9aa3b2;--ground:#fff;--tint:#fff7f2}
 *{box-sizing:border-box}
 body{margin:0;background:#f6f7f9;color:var(--ink);font:15px/1.55 system-ui,-apple-system,'Segoe UI',Roboto,'DejaVu Sans',sans-serif}

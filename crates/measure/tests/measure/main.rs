@@ -1,5 +1,6 @@
 //! Measuring small networks on the device.
 
+mod convergence;
 mod end_to_end;
 mod network;
 mod translation;
