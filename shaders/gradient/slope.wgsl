@@ -6,10 +6,10 @@ fn slope(p: vec3f, axis: vec3f, back: f32, ahead: f32) -> f32 {
     let x = clamp(dot(p, axis) * size, 0.5, size - 0.5);
     var low = max(x - back, 0.5);
     var high = min(x + ahead, size - 0.5);
-    // A one-sided operator at its border looks the other way.
+    // A one-sided operator looks the other way where less than half of its way is left.
     if high - low < 0.5 * (back + ahead) {
-        low = max(high - (back + ahead), 0.5);
-        high = min(low + back + ahead, size - 0.5);
+        low = max(x - ahead, 0.5);
+        high = min(x + back, size - 0.5);
     }
     let rest = p * (1.0 - axis);
     let difference = value_at(rest + axis * (high / size)) - value_at(rest + axis * (low / size));

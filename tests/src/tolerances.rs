@@ -98,3 +98,8 @@ pub const MARSCHNER_LOBB_LINEAR: f64 = 0.02;
 pub const INTERPOLATED: f64 = 2e-6;
 /// I4: rounding of what is left of a ray, beside the error that was asked for.
 pub const TERMINATION: f64 = 5e-7;
+/// Agreement: depth of a refined surface, world units. The last of eight halvings, which rounding may decide, is a step of up to
+/// 2.5 divided by 2^8.
+pub const REFINED: f64 = 1e-2;
+/// Agreement: any pixel with any gradient operator, borders included. A quarter of a code is found where the surface is grazed.
+pub const AGREEMENT_GRADIENT: f64 = 0.5 / 255.0;

@@ -2,8 +2,7 @@
 //!
 //! Where single pixels differ, the two disagree about a jump that rounding decides: whether a ray that grazes a surface meets
 //! it (*silhouette*, *another crossing*), or to which side a normal that is seen edge-on is turned by two-sided lighting
-//! (*same place*: without `two_sided` these vanish). Within two voxels of the border fourth-order gradients are defined
-//! differently; their pixels count as *same place*, too.
+//! (*same place*: without `two_sided` these vanish).
 
 use std::path::PathBuf;
 
@@ -149,7 +148,8 @@ impl Subject {
         self.bench.render(SIZE)
     }
 
-    fn judge(&mut self, look: Look, (view, camera): &(&'static str, Camera)) {
+    /// Holds a picture to that of the reference; the largest difference of a pixel.
+    fn judge(&mut self, look: Look, (view, camera): &(&'static str, Camera)) -> f64 {
         let volume = self.bench.volume();
         let expected = same_samples::render(&self.scene(look, *camera, &volume)).expect("a scene that makes sense");
         let found = self.render(look, camera);
@@ -168,6 +168,7 @@ impl Subject {
         );
         assert!(mean <= AGREEMENT_MEAN, "{case}: the mean difference is {}/255", mean * 255.0);
         assert!(share >= AGREEMENT_SHARE, "{case}: only {share} of the pixels agree");
+        comparison.pixels.max
     }
 }
 
@@ -255,6 +256,56 @@ fn every_reconstruction() {
     }
 }
 
+/// Refinements take the same steps: what differs is rounding, and depths show more of it than colours.
+#[test]
+fn every_refinement() {
+    let mut subject = Subject::ball();
+    let volume = subject.bench.volume();
+    let [above, ..] = views(&volume);
+    let method = |value: f64, refinement: Refinement| Method::Isosurface { value, refinement };
+    for (name, refinement) in [
+        ("none", Refinement::None),
+        ("linear", Refinement::Linear),
+        ("bisection", Refinement::Bisection(8)),
+        ("secant", Refinement::Secant(4)),
+    ] {
+        subject.render(LOOKS[3], &above.1);
+        let found = subject.bench.put("traversal.refinement", json!(name)).render(SIZE);
+        let scene = Scene { method: method(subject.isovalue, refinement), ..subject.scene(LOOKS[3], above.1, &volume) };
+        let expected = same_samples::render(&scene).expect("a scene that makes sense");
+        let pairs = found.depth.iter().map(|d| f64::from(*d)).zip(expected.depth.iter().copied());
+        let errors: Vec<f64> =
+            pairs.filter(|(a, b)| *a < 0.99 * MISS && *b < 0.99 * MISS).map(|(a, b)| (a - b).abs()).collect();
+        let close = errors.iter().filter(|error| **error <= REFINED).count() as f64 / errors.len() as f64;
+        println!("{name}: {} hits, {:.3} % within {REFINED} of the depth", errors.len(), 100.0 * close);
+        assert!(errors.len() > 2000 && close >= AGREEMENT_SHARE, "{name}: {close}");
+    }
+}
+
+/// Light from behind and a low exponent: where the light does not reach there is no highlight.
+#[test]
+fn highlights_end_where_the_light_does() {
+    let mut subject = Subject::ball();
+    let volume = subject.bench.volume();
+    let [above, ..] = views(&volume);
+    subject.render(LOOKS[3], &above.1);
+    subject.bench.put("traversal.light", json!({"direction": [0.9, 0.3, -0.5], "space": "camera"}));
+    subject.bench.put("traversal.shading.shininess", json!(2)).put("traversal.shading.specular", json!(1));
+    let found = subject.bench.render(SIZE);
+    let mut scene = subject.scene(LOOKS[3], above.1, &volume);
+    scene.shading = scene.shading.map(|shading| BlinnPhong {
+        light_direction: DVec3::new(0.9, 0.3, -0.5),
+        shininess: 2.0,
+        specular: 1.0,
+        ..shading
+    });
+    let expected = same_samples::render(&scene).expect("a scene that makes sense");
+    let comparison = Comparison::new(&found.color, &expected.color).expect("pictures of one size");
+    let share = comparison.share_within(AGREEMENT_PIXEL);
+    println!("light from behind: {:.3} % of the pixels agree", 100.0 * share);
+    assert!(share >= AGREEMENT_SHARE, "{share}");
+}
+
 #[test]
 fn every_gradient() {
     let mut subject = Subject::ball();
@@ -266,7 +317,8 @@ fn every_gradient() {
         ("central", GradientOperator::Central),
         ("central4", GradientOperator::CentralFourth),
     ] {
-        subject.judge(Look { gradient, ..LOOKS[3] }, &above);
-        subject.judge(Look { gradient, ..LOOKS[4] }, &below);
+        let surface = subject.judge(Look { gradient, ..LOOKS[3] }, &above);
+        let medium = subject.judge(Look { gradient, ..LOOKS[4] }, &below);
+        assert!(surface.max(medium) <= AGREEMENT_GRADIENT, "{}: {surface} {medium}", gradient.0);
     }
 }

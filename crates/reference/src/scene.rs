@@ -16,7 +16,8 @@ pub enum Refinement {
     Linear,
     /// That many halvings, then the middle of what is left.
     Bisection(u32),
-    /// That many steps of false position, each keeping the crossing enclosed; one is [`Refinement::Linear`].
+    /// That many steps of false position, each keeping the crossing enclosed; one is [`Refinement::Linear`]. The weight of an
+    /// end that two steps in a row have kept is halved, or the steps would creep (the Illinois method, Dowell and Jarratt 1971).
     Secant(u32),
 }
 

@@ -15,7 +15,8 @@ pub enum LightSpace {
 /// Blinn-Phong lighting by one distant light.
 ///
 /// With the unit normal `n`, the unit vector `l` towards the light and `h` halfway between it and the viewer, a straight
-/// colour `c` becomes `c (ambient + diffuse max(n·l, 0)) + specular max(n·h, 0)^shininess`.
+/// colour `c` becomes `c (ambient + diffuse max(n·l, 0)) + specular max(n·h, 0)^shininess`. A side that the light does not reach
+/// (`n·l <= 0`) has no highlight either, wherever the half-way vector points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BlinnPhong {
     /// Share of the colour that needs no light.
@@ -72,8 +73,10 @@ impl BlinnPhong {
         let flip = self.two_sided && normal.dot(towards_viewer) < 0.0;
         let normal = if flip { -normal } else { normal };
         let halfway = (towards_light + towards_viewer).normalize_or_zero();
-        let diffuse = self.diffuse * normal.dot(towards_light).max(0.0);
-        let specular = self.specular * normal.dot(halfway).max(0.0).powf(self.shininess);
+        let cosine = normal.dot(towards_light).max(0.0);
+        let diffuse = self.diffuse * cosine;
+        let lobe = normal.dot(halfway).max(0.0).powf(self.shininess);
+        let specular = if cosine > 0.0 { self.specular * lobe } else { 0.0 };
         [0, 1, 2].map(|i| color[i] * (self.ambient + diffuse * self.light_color[i]) + specular * self.light_color[i])
     }
 

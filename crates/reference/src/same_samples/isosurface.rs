@@ -63,9 +63,16 @@ fn refine(at: impl Fn(f64) -> Point, mut before: Point, mut after: Point, refine
         Refinement::Bisection(halvings) => (halvings, &middle),
         Refinement::Secant(steps) => (steps.saturating_sub(1), &chord),
     };
+    let mut replaced = None;
     for _ in 0..steps {
         let point = at(guess(before, after));
-        if point.is_inside() == before.is_inside() {
+        let is_before = point.is_inside() == before.is_inside();
+        let kept = if is_before { &mut after } else { &mut before };
+        // Halvings of an interval do not look at the excess.
+        if replaced.replace(is_before) == Some(is_before) {
+            kept.excess *= 0.5;
+        }
+        if is_before {
             before = point;
         } else {
             after = point;
