@@ -63,13 +63,24 @@
 #each output
 #snippet compositing
 #end
+#if trace
+#include "traversal/trace.wgsl"
+
+@compute @workgroup_size(1)
+fn traverse() {
+    let id = vec3u(trace.pixel, 0u);
+#else
 
 @compute @workgroup_size(8, 8)
 fn traverse(@builtin(global_invocation_id) id: vec3u) {
+#endif
     if any(id.xy >= frame.image_size) {
         return;
     }
     let ray = ray_through(id.xy);
+#if trace
+    trace_ray(ray);
+#endif
 #each output
     var OUT_state = OUT_begin();
 #end
@@ -108,6 +119,18 @@ fn traverse(@builtin(global_invocation_id) id: vec3u) {
             visible = s.medium.w > 0.0;
 #if gaps
             visible = visible && !in_gap(s.position);
+#endif
+#if trace
+#if gaps
+            if !in_gap(s.position) {
+                trace_sample(ray, s, index);
+            }
+#else
+            trace_sample(ray, s, index);
+#endif
+#each output
+            trace_accumulated(OUT_INDEX, OUT_finish(OUT_state, ray_until(ray, index + 1u)).color);
+#end
 #endif
             index += 1u;
 #if counting
@@ -153,6 +176,11 @@ fn traverse(@builtin(global_invocation_id) id: vec3u) {
 #endif
 #if medium
         s.medium = classify(s);
+#endif
+#if trace
+        trace_sample(ray, s, index);
+#endif
+#if medium
 #if shading
         if s.medium.w > 0.0 {
             s.medium = lit(s.medium, ray, s.position, s.voxel);
@@ -173,13 +201,24 @@ fn traverse(@builtin(global_invocation_id) id: vec3u) {
 #endif
 #each output
         OUT_add(&OUT_state, ray, s);
+#if trace
+        trace_accumulated(OUT_INDEX, OUT_finish(OUT_state, ray_until(ray, index)).color);
+#endif
 #end
+#if trace
+#if medium
+        trace_shaded(s.medium);
+#endif
+#endif
 #if stop
         var open = false;
 #each output
         open = open || !OUT_done(OUT_state);
 #end
         if !open {
+#if trace
+            trace.stopped = 1u;
+#endif
             break;
         }
 #endif
@@ -189,8 +228,12 @@ fn traverse(@builtin(global_invocation_id) id: vec3u) {
     if ray.count > 0u {
         OUT_result = OUT_finish(OUT_state, ray);
     }
+#if trace
+    trace_result(OUT_INDEX, OUT_result);
+#else
     textureStore(OUT_color, id.xy, OUT_result.color);
     textureStore(OUT_depth, id.xy, vec4f(depth_along(ray, OUT_result.along)));
+#endif
 #end
 #if statistics
     count_samples(ray, taken, contributing);

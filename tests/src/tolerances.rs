@@ -103,3 +103,6 @@ pub const TERMINATION: f64 = 5e-7;
 pub const REFINED: f64 = 1e-2;
 /// Agreement: any pixel with any gradient operator, borders included. A quarter of a code is found where the surface is grazed.
 pub const AGREEMENT_GRADIENT: f64 = 0.5 / 255.0;
+/// Ray probe: a value interpolated with float weights, as a share of the range. Positions are rounded by [`CHORD`] of a box of
+/// up to 60 voxels, along which the value changes by up to a third of the range a voxel.
+pub const PROBED_VALUE: f64 = 1.2e-5;

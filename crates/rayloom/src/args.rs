@@ -55,6 +55,9 @@ pub enum Command {
         #[arg(long, value_name = "PROCESSOR.PROPERTY=JSON", value_parser = setting)]
         set: Vec<Setting>,
     },
+    /// Follow the ray of one pixel through a ray traversal and print its samples as CSV: place, value, gradient, colours,
+    /// and what the pixel has come to so far.
+    Probe(ProbeArgs),
     /// Describe a volume file: size, values, place in the world.
     Info {
         /// The volume file; `rayloom list formats` says what can be read.
@@ -165,6 +168,28 @@ pub struct VerifyArgs {
     pub report: Option<PathBuf>,
 }
 
+/// Arguments of `rayloom probe`.
+#[derive(Debug, Args)]
+pub struct ProbeArgs {
+    /// The network file (JSON).
+    pub network: PathBuf,
+    /// The pixel: column and row, counted from 0 at the upper left.
+    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    pub pixel: [u32; 2],
+    /// The file to write; the standard output without it.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Id of the ray traversal; needed where there are several.
+    #[arg(long)]
+    pub processor: Option<String>,
+    /// Size of the picture instead of that of its canvas.
+    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size)]
+    pub size: Option<[u32; 2]>,
+    /// Set a property first; may be repeated. The value is JSON, or a bare word for a text.
+    #[arg(long, value_name = "PROCESSOR.PROPERTY=JSON", value_parser = setting)]
+    pub set: Vec<Setting>,
+}
+
 /// Arguments of `rayloom list`.
 #[derive(Debug, Args)]
 pub struct ListArgs {
@@ -241,6 +266,11 @@ fn size(text: &str) -> Result<[u32; 2], String> {
     let side = |text: &str| text.trim().parse().ok().filter(|side| (1..=MAX_SIZE).contains(side));
     let sides = text.split_once(['x', 'X']).and_then(|(width, height)| Some([side(width)?, side(height)?]));
     sides.ok_or_else(|| format!("write WIDTHxHEIGHT in pixels, each from 1 to {MAX_SIZE}, such as 800x600"))
+}
+
+fn pixel(text: &str) -> Result<[u32; 2], String> {
+    let pixel = text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    pixel.ok_or_else(|| "write X,Y: column and row from the upper left, such as 120,80".to_owned())
 }
 
 fn picture_file(text: &str) -> Result<PathBuf, String> {

@@ -10,6 +10,7 @@ mod list;
 mod measure;
 mod network_file;
 mod open;
+mod probe;
 mod problems;
 mod progress;
 mod reference;
@@ -50,6 +51,7 @@ fn run(command: Option<&Command>) -> Result<String, Failure> {
         Command::Check { network } => check::run(network),
         Command::List(args) => list::run(args),
         Command::Shader { network, processor, set } => shader::run(network, processor, set),
+        Command::Probe(args) => probe::run(args),
         Command::Info { volume } => info::run(volume),
         Command::Adapter => adapter::run(),
         Command::Open { network, mode } => open::run(Some(network), *mode),

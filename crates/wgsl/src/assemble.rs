@@ -285,11 +285,13 @@ impl Writer<'_> {
     fn each_output(&mut self, file: &Arc<str>, block: &[Line]) -> Result<(), Diagnostic> {
         for place in self.places.iter().filter(|place| place.output.is_some()) {
             let repeated = block.iter().map(|line| {
-                let binding = FIRST_OUTPUT_BINDING + 2 * place.output.unwrap_or(0);
+                let output = place.output.unwrap_or(0);
+                let binding = FIRST_OUTPUT_BINDING + 2 * output;
                 let text = line
                     .text
                     .replace("OUT_COLOR_BINDING", &binding.to_string())
-                    .replace("OUT_DEPTH_BINDING", &(binding + 1).to_string());
+                    .replace("OUT_DEPTH_BINDING", &(binding + 1).to_string())
+                    .replace("OUT_INDEX", &format!("{output}u"));
                 let renamed = Renaming::output(&text, &place.prefix).apply(&text);
                 let text = renamed.into_iter().map(|line| line.text).collect();
                 Line { number: line.number, text, shifts: Vec::new() }

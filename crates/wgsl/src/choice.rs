@@ -25,6 +25,8 @@ pub struct Choice {
     pub sample_map: bool,
     /// Move the lattice of samples by a random share of a step, pixel by pixel.
     pub jitter: bool,
+    /// Follow one ray and note its samples instead of drawing a picture.
+    pub trace: bool,
     /// Store colours as 16-bit instead of 32-bit floats.
     pub half_targets: bool,
     /// The volume has voxels without a value (NaN), which are not drawn.
@@ -284,6 +286,7 @@ impl<'a> Used<'a> {
         set("sample_map", choice.sample_map);
         set("counting", choice.statistics || choice.sample_map);
         set("jitter", choice.jitter);
+        set("trace", choice.trace);
         set("half_targets", choice.half_targets);
         set("gaps", choice.gaps);
         set(&format!("channel_{}", choice.channel), true);
@@ -314,6 +317,7 @@ pub fn legal_choices(library: &Library) -> BTreeSet<Choice> {
         statistics: false,
         sample_map: false,
         jitter: false,
+        trace: false,
         half_targets: false,
         gaps: false,
         channel: 0,

@@ -58,7 +58,7 @@ fn every_set_of_outputs_is_valid_with_every_switch() {
                 ("preintegrated_full", "precomputed", "occupancy"),
                 ("voxel_color", "forward", "none"),
             ] {
-                for switches in 0..4u32 {
+                for switches in 0..5u32 {
                     choices.push(Choice {
                         snippets: BTreeMap::from([
                             (Slot::Sampling, path(Slot::Sampling, "trilinear")),
@@ -76,10 +76,11 @@ fn every_set_of_outputs_is_valid_with_every_switch() {
                         statistics: switches & 2 == 0,
                         sample_map: switches & 1 == 0,
                         jitter: switches == 3,
+                        trace: switches == 4,
                         half_targets: switches & 2 != 0,
                         gaps: switches & 2 != 0,
-                        channel: switches,
-                        channels: switches + 1,
+                        channel: switches % 4,
+                        channels: switches % 4 + 1,
                     });
                 }
             }
@@ -96,4 +97,31 @@ fn every_set_of_outputs_is_valid_with_every_switch() {
         problems[0]
     );
     assert!(legal.len() > 200, "only {} combinations were found", legal.len());
+}
+
+#[test]
+fn the_ray_probe_leaves_no_trace_in_other_shaders() {
+    let library = Library::built_in().expect("built-in snippets declare themselves well");
+    let choices: Vec<_> = legal_choices(&library).into_iter().step_by(101).collect();
+    let traced: Vec<_> = choices.iter().map(|choice| Choice { trace: true, ..choice.clone() }).collect();
+    assert_eq!(validate_all(&library, &traced), Vec::<String>::new());
+    for choice in choices {
+        let text = assemble(&library, &choice).expect("legal").text;
+        assert!(!text.contains("trace"), "{text}");
+        let traced = assemble(&library, &Choice { trace: true, ..choice }).expect("legal").text;
+        // The probe adds lines and takes away none but the head of the entry point and what writes the picture.
+        let mut kept = traced.lines();
+        let mut found = |line: &&str| {
+            let mut rest = kept.clone();
+            let found = rest.any(|other| other == *line);
+            if found {
+                kept = rest;
+            }
+            found
+        };
+        let lost: Vec<_> = text.lines().filter(|line| !found(line)).collect();
+        let expected = ["@compute @workgroup_size(8, 8)", "fn traverse(", "    textureStore(", "    textureStore("];
+        assert_eq!(lost.len(), expected.len(), "{lost:#?}");
+        assert!(lost.iter().zip(expected).all(|(line, start)| line.starts_with(start)), "{lost:#?}");
+    }
 }

@@ -25,6 +25,7 @@ fn choice(library: &Library, slots: &[(Slot, &str)], output: &str) -> Choice {
         statistics: false,
         sample_map: false,
         jitter: false,
+        trace: false,
         half_targets: false,
         gaps: false,
         channel: 0,

@@ -57,6 +57,7 @@ pub(super) fn plan<'a>(
         statistics: context.count_samples,
         sample_map: job.wants(SAMPLES),
         jitter: job.properties.bool("jitter")?,
+        trace: false,
         half_targets: job.properties.text("target")? == "16-bit",
         gaps: memory.gaps.of(volume, channel).is_some(),
         channel,

@@ -41,12 +41,15 @@ pub(super) struct Drawn {
     pub targets: Targets,
     /// Samples of every ray, when they are wanted.
     pub samples: Option<Arc<Texture>>,
+    /// What the shader read, by the names of its global variables.
+    pub inputs: Vec<(String, Resource)>,
     /// Rays, samples and contributing samples, when they were counted.
     pub counted: Option<Map<String, serde_json::Value>>,
 }
 
 /// A resource with what keeps it alive.
-enum Resource {
+#[derive(Clone)]
+pub(super) enum Resource {
     Texture(Arc<Texture>),
     View(wgpu::TextureView),
     Buffer(wgpu::Buffer),
@@ -71,7 +74,7 @@ impl Pass<'_> {
         let samples = self.samples(context)?;
         let frame = self.frame(&context.gpu)?;
         let bindings = &self.shader.interface.bindings;
-        let resources = bindings
+        let mut resources = bindings
             .iter()
             .map(|field| {
                 let resource = match (field.name.as_str(), &counters, &samples) {
@@ -79,12 +82,16 @@ impl Pass<'_> {
                     ("sample_map", _, Some(samples)) => Resource::Texture(samples.clone()),
                     (name, ..) => self.resource(name, context, memory, &frame, &targets)?,
                 };
-                Ok((field.binding, resource))
+                Ok((field.name.clone(), resource))
             })
             .collect::<Result<Vec<_>, ProcessError>>()?;
-        self.dispatch(context, &resources)?;
+        let label = format!("ray traversal `{}`", self.job.id);
+        let groups = self.inputs.view.size.map(|pixels| pixels.div_ceil(GROUP));
+        submit(context, &label, self.shader, &resources, groups, true)?;
         let counted = counters.map(|counters| counts(&context.gpu, &counters)).transpose()?;
-        Ok(Drawn { targets, samples, counted })
+        // Targets go back to the pool when nobody shows them any more.
+        resources.retain(|(name, _)| name != "counters" && name != "sample_map" && !name.starts_with("out"));
+        Ok(Drawn { targets, samples, inputs: resources, counted })
     }
 
     /// Colour and depth textures of the outputs in use.
@@ -230,34 +237,45 @@ impl Pass<'_> {
         let rate = self.job.properties.f64("sampling_rate")?;
         Ok(super::frame::mean_spacing(volume) / rate / reference_length(volume, self.job.properties)?)
     }
+}
 
-    fn dispatch(&self, context: &mut Context, resources: &[(u32, Resource)]) -> Result<(), GpuError> {
-        let label = format!("ray traversal `{}`", self.job.id);
-        let pipeline = context.pipelines.compute(&context.gpu, &label, &self.shader.assembled.text, "traverse")?;
-        let (gpu, timer) = (&context.gpu, &context.timer);
-        gpu.guarded(&label, || {
-            let entries: Vec<_> = resources
-                .iter()
-                .map(|(binding, resource)| wgpu::BindGroupEntry { binding: *binding, resource: resource.binding() })
-                .collect();
-            let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some(&label),
-                layout: &pipeline.get_bind_group_layout(0),
-                entries: &entries,
-            });
-            let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-                label: Some(&label),
-                timestamp_writes: timer.compute_pass(),
-            });
-            pass.set_pipeline(&pipeline);
-            pass.set_bind_group(0, &group, &[]);
-            let [width, height] = self.inputs.view.size.map(|pixels| pixels.div_ceil(GROUP));
-            pass.dispatch_workgroups(width, height, 1);
-            drop(pass);
-            gpu.queue.submit([encoder.finish()]);
-        })
-    }
+/// Runs a shader once on resources given by the names of its global variables.
+///
+/// # Errors
+/// The shader binds something that is not among them; the device refuses.
+pub(super) fn submit(
+    context: &mut Context,
+    label: &str,
+    shader: &Validated,
+    resources: &[(String, Resource)],
+    groups: [u32; 2],
+    timed: bool,
+) -> Result<(), ProcessError> {
+    let entries = shader.interface.bindings.iter().map(|field| {
+        let (_, resource) =
+            resources.iter().find(|(name, _)| *name == field.name).ok_or_else(|| unknown(&field.name))?;
+        Ok(wgpu::BindGroupEntry { binding: field.binding, resource: resource.binding() })
+    });
+    let entries = entries.collect::<Result<Vec<_>, ProcessError>>()?;
+    let pipeline = context.pipelines.compute(&context.gpu, label, &shader.assembled.text, "traverse")?;
+    let (gpu, timer) = (&context.gpu, &context.timer);
+    gpu.guarded(label, || {
+        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(label),
+            layout: &pipeline.get_bind_group_layout(0),
+            entries: &entries,
+        });
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let timestamp_writes = if timed { timer.compute_pass() } else { None };
+        let mut pass =
+            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(label), timestamp_writes });
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.dispatch_workgroups(groups[0], groups[1], 1);
+        drop(pass);
+        gpu.queue.submit([encoder.finish()]);
+    })?;
+    Ok(())
 }
 
 fn unknown(name: &str) -> ProcessError {

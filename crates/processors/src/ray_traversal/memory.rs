@@ -12,12 +12,20 @@ use super::memo::Memo;
 use super::skipping::SkipMemory;
 use super::snippets::shader_error;
 use super::splines::Splines;
+use super::trace::LastRun;
+
+/// A shader, for a choice and the edited texts in it.
+pub(super) type ShaderMemo = Memo<(Choice, Vec<Arc<str>>), Arc<Validated>>;
 
 /// Everything kept.
 #[derive(Default)]
 pub struct Memory {
-    pub(super) validated: Memo<(Choice, Vec<Arc<str>>), Arc<Validated>>,
+    pub(super) validated: ShaderMemo,
     last: Option<Arc<Validated>>,
+    /// What the last run rendered, unless it failed; the ray probe looks at it.
+    pub(super) last_run: Option<LastRun>,
+    /// The shader of the ray probe.
+    pub(super) tracing: ShaderMemo,
     pub(super) splines: Splines,
     pub(super) skipping: SkipMemory,
     pub(super) gaps: GapMemory,
@@ -33,14 +41,7 @@ impl Memory {
     /// # Errors
     /// What is wrong with the snippets, with file, line and column.
     pub(super) fn shader(&mut self, library: &Library, choice: &Choice) -> Result<Arc<Validated>, ProcessError> {
-        // A path stands for its text, but for edited ones.
-        let edited =
-            choice.snippets.values().chain(choice.outputs.iter().flatten()).filter(|path| path.starts_with("edited/"));
-        let texts = edited.filter_map(|path| Some(library.source(path)?.text.clone())).collect();
-        let shader = self.validated.get((choice.clone(), texts), || {
-            let assembled = assemble(library, choice).map_err(shader_error)?;
-            validate(library, assembled).map(Arc::new).map_err(|problem| shader_error(vec![*problem]))
-        })?;
+        let shader = shader(&mut self.validated, library, choice)?;
         self.last = Some(shader.clone());
         Ok(shader)
     }
@@ -49,4 +50,23 @@ impl Memory {
     pub fn assembled(&self) -> Option<&Assembled> {
         self.last.as_ref().map(|shader| &shader.assembled)
     }
+}
+
+/// Assembles and validates a shader, or finds it in its memo.
+///
+/// # Errors
+/// What is wrong with the snippets, with file, line and column.
+pub(super) fn shader(
+    memo: &mut ShaderMemo,
+    library: &Library,
+    choice: &Choice,
+) -> Result<Arc<Validated>, ProcessError> {
+    // A path stands for its text, but for edited ones.
+    let edited =
+        choice.snippets.values().chain(choice.outputs.iter().flatten()).filter(|path| path.starts_with("edited/"));
+    let texts = edited.filter_map(|path| Some(library.source(path)?.text.clone())).collect();
+    memo.get((choice.clone(), texts), || {
+        let assembled = assemble(library, choice).map_err(shader_error)?;
+        validate(library, assembled).map(Arc::new).map_err(|problem| shader_error(vec![*problem]))
+    })
 }

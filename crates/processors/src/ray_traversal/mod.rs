@@ -13,6 +13,7 @@ mod skipping;
 mod snippets;
 mod splines;
 mod tables;
+mod trace;
 
 use std::sync::Arc;
 
@@ -25,6 +26,7 @@ use memory::Memory;
 use crate::{Context, Data, Image, JobData, View, VolumeData};
 
 pub use snippets::{snippet_library, user_folder};
+pub use trace::{Trace, TraceOutput, TraceSample};
 
 /// Outports, in the order of the shader's outputs.
 const OUTPORTS: [&str; 3] = ["image", "image2", "image3"];
@@ -133,12 +135,14 @@ impl RayTraversal {
         job: &Job<'_, Data>,
         memory: &mut Memory,
     ) -> Result<Outputs<Data>, ProcessError> {
+        memory.last_run = None;
         let inputs = Inputs::of(job)?;
         let mut notes = Vec::new();
         let plan = choose::plan(&self.library, context, job, &inputs, memory, &mut notes)?;
         let shader = memory.shader(&plan.library, &plan.choice)?;
         let pass = dispatch::Pass { job, inputs: &inputs, plan: &plan, shader: &shader };
         let drawn = pass.run(context, memory)?;
+        memory.last_run = Some(trace::LastRun::new(job, &inputs, plan, drawn.inputs)?);
 
         let mut outputs = Outputs::new();
         for (outport, target) in OUTPORTS.iter().zip(drawn.targets) {

@@ -1,4 +1,4 @@
-//! `render` and `shader`, with the files that they give.
+//! `render`, `probe` and `shader`, with the files that they give.
 
 use std::fs;
 use std::path::Path;
@@ -100,4 +100,26 @@ fn the_shader_tells_where_its_parts_come_from() {
     assert!(mip.contains("// --- compositing/mip.wgsl:") && !mip.contains("compositing/dvr.wgsl"), "{mip}");
     let error = rayloom(["shader", &network, "source"]).error();
     assert!(error.contains("ask for `traversal`"), "{error}");
+}
+
+#[test]
+fn a_probed_ray_is_a_table_of_its_samples() {
+    let (folder, network) = network(TRAVERSAL);
+    let file = within(&folder, "ray.csv");
+    let text = rayloom(["probe", &network, "--pixel", "20,15", "-o", &file]).output();
+    let table = fs::read_to_string(&file).expect("a table");
+    let mut rows = table.lines();
+    let header = rows.next().expect("a header");
+    assert!(header.starts_with("sample,distance,x,y,z,value,classified_r"), "{header}");
+    assert!(header.ends_with("image_r,image_g,image_b,image_a") && !header.contains("gradient"), "{header}");
+    let numbers = |row: &str| row.split(',').map(|cell| cell.parse::<f64>().expect("a number")).collect::<Vec<_>>();
+    let rows: Vec<_> = rows.map(numbers).collect();
+    assert!(rows.len() > 10 && text.contains(&format!("{} of", rows.len())), "{text}");
+    assert!(rows.iter().all(|row| row.len() == header.split(',').count()));
+    assert!(rows.windows(2).all(|pair| pair[0][0] < pair[1][0] && pair[0][1] < pair[1][1]));
+
+    let error = rayloom(["probe", &network, "--pixel", "40,0"]).error();
+    assert!(error.contains("no pixel 40,0 in a picture of 40 x 30"), "{error}");
+    let error = rayloom(["probe", &network, "--pixel", "1,1", "--processor", "view"]).error();
+    assert!(error.contains("`view` is no ray traversal; there are `traversal`"), "{error}");
 }
