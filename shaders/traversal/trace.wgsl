@@ -102,7 +102,11 @@ fn ray_until(ray: Ray, count: u32) -> Ray {
     var part = ray;
     if count < ray.count {
         part.count = count;
+#if jitter
+        part.steps = f32(count) - ray.shift;
+#else
         part.steps = f32(count);
+#endif
     }
     return part;
 }

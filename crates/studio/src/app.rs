@@ -180,7 +180,10 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
     }
 
     fn is_tab_closable(&self, tiles: &egui_tiles::Tiles<Pane>, tile: egui_tiles::TileId) -> bool {
-        matches!(tiles.get_pane(&tile), Some(Pane::Inspector(_) | Pane::Accuracy | Pane::Budget | Pane::Application))
+        matches!(
+            tiles.get_pane(&tile),
+            Some(Pane::Inspector(_) | Pane::Accuracy | Pane::RayProbe | Pane::Budget | Pane::Application)
+        )
     }
 
     fn simplification_options(&self) -> egui_tiles::SimplificationOptions {

@@ -7,13 +7,16 @@ use std::thread::JoinHandle;
 
 use rayloom_gpu::{Gpu, GpuError};
 use rayloom_network::{Address, Backend, Evaluator, Facts, Job, Network, Outputs, ProcessError, Report, Request, Run};
-use rayloom_processors::{Data, Image, Runner};
+use rayloom_processors::{Data, Image, Runner, Trace};
 use rayloom_volume::Progress;
+
+use crate::probe::Ray;
 
 /// What to evaluate. Only the newest order counts.
 struct Order {
     network: Network,
     request: Request,
+    ray: Option<Ray>,
     number: u64,
 }
 
@@ -41,6 +44,8 @@ pub struct Results {
     pub outputs: BTreeMap<Address, Data>,
     /// What arrives at the canvases.
     pub canvases: BTreeMap<String, Arc<Image>>,
+    /// The ray that was asked for, in the picture as it is now.
+    pub trace: Option<Arc<Result<Trace, ProcessError>>>,
 }
 
 impl Results {
@@ -66,7 +71,9 @@ pub struct Engine {
     thread: Option<JoinHandle<()>>,
     /// Number of the last order.
     ordered: u64,
-    last: Option<(u64, Request)>,
+    last: Option<(u64, Request, Option<Ray>)>,
+    /// A ray to follow behind every evaluation; asked for anew in every frame.
+    pub ray: Option<Ray>,
     /// The latest results.
     pub results: Results,
     /// The processor that is at work.
@@ -98,6 +105,7 @@ impl Engine {
             thread: Some(thread),
             ordered: 0,
             last: None,
+            ray: None,
             results: Results::default(),
             running: None,
             progress: BTreeMap::new(),
@@ -106,12 +114,17 @@ impl Engine {
 
     /// Asks for an evaluation unless it is what was asked for last. `revision` tells states of the network apart.
     pub fn order(&mut self, revision: u64, network: &Network, request: Request) {
-        if self.last.as_ref().is_some_and(|(last, wanted)| *last == revision && *wanted == request) {
+        let same = |(last, wanted, ray): &(u64, Request, Option<Ray>)| {
+            *last == revision && *wanted == request && *ray == self.ray
+        };
+        if self.last.as_ref().is_some_and(same) {
             return;
         }
         self.ordered += 1;
-        let order = Order { network: network.clone(), request: request.clone(), number: self.ordered };
-        self.last = Some((revision, request));
+        let ray = self.ray.clone();
+        let order =
+            Order { network: network.clone(), request: request.clone(), ray: ray.clone(), number: self.ordered };
+        self.last = Some((revision, request, ray));
         if let Some(orders) = &self.orders {
             // A thread that ended says so by its silence: `is_busy` stays true and the status line shows it.
             let _ = orders.send(order);
@@ -184,12 +197,24 @@ fn work(mut backend: Telling, orders: &Receiver<Order>, wake: &impl Fn()) {
         }
         let report = evaluator.evaluate(&order.network, &mut backend, &order.request);
         backend.runner.tidy(|id| order.network.processor(id).is_some());
-        let results = Box::new(collect(&order, report, &evaluator));
+        let mut results = Box::new(collect(&order, report, &evaluator));
+        results.trace = order.ray.as_ref().map(|ray| Arc::new(follow(&mut backend.runner, &results.outputs, ray)));
         if backend.news.send(News::Results(results)).is_err() {
             return;
         }
         wake();
     }
+}
+
+/// Follows a ray of the picture that a traversal has on any of its outports.
+fn follow(runner: &mut Runner, outputs: &BTreeMap<Address, Data>, ray: &Ray) -> Result<Trace, ProcessError> {
+    let own = outputs.iter().filter(|(outport, _)| outport.processor == ray.processor);
+    let size = own.into_iter().find_map(|(_, data)| match data {
+        Data::Image(image) => Some(image.size()),
+        _ => None,
+    });
+    let absent = || ProcessError::new(format!("`{}` has no picture at the moment, so no rays", ray.processor));
+    runner.trace(&ray.processor, ray.pixel(size.ok_or_else(absent)?))
 }
 
 fn collect(order: &Order, report: Report, evaluator: &Evaluator<Telling>) -> Results {

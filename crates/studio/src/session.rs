@@ -12,6 +12,7 @@ use crate::document::Document;
 use crate::engine::Engine;
 use crate::inspect::Inspection;
 use crate::panels::{Navigation, Pane};
+use crate::probe::Probe;
 use crate::quality::Quality;
 
 /// How the window is used.
@@ -66,6 +67,8 @@ pub struct Session {
     pub display: Display,
     /// What is known about data that is looked at.
     pub inspection: Inspection,
+    /// The ray that is looked at.
+    pub probe: Probe,
     /// Panes that panels ask the window to open, after this frame.
     pub to_open: Vec<Pane>,
     /// Set by a panel that asks the window to open the palette, after this frame.
@@ -99,6 +102,7 @@ impl Session {
             chooser: Chooser::default(),
             display,
             inspection: Inspection::default(),
+            probe: Probe::default(),
             to_open: Vec::new(),
             wants_palette: false,
             selection: BTreeSet::new(),
@@ -168,6 +172,8 @@ impl Session {
         self.interacting = false;
         self.watched.clear();
         self.shown.clear();
+        self.engine.ray = None;
+        self.probe.begin_frame();
     }
 
     /// To be called at the end of a frame: asks for what it looked at, and for another frame when pictures are to be refined.

@@ -52,6 +52,8 @@ pub struct TraceSample {
     pub index: u32,
     /// Distance from the entry point, world units.
     pub distance: f64,
+    /// Where its segment begins, distance from the entry point in world units.
+    pub start: f64,
     /// Length of its segment, world units.
     pub length: f64,
     /// World coordinates.
@@ -233,6 +235,7 @@ impl LastRun {
             TraceSample {
                 index: traced.index,
                 distance: f64::from(traced.along) * step_length,
+                start: f64::from(traced.index) * step_length,
                 length: f64::from(traced.length) * self.reference_length,
                 position: position.into(),
                 value: self.range.denormalise(f64::from(traced.value)),

@@ -201,6 +201,9 @@ const VIEW: &[&[Command]] = &[
         editing("Show accuracy", "Compares the picture with an exact one.", |studio, _| {
             studio.session.to_open.push(Pane::Accuracy);
         }),
+        editing("Show ray probe", "Follows the ray of a pixel: Ctrl and click on one.", |studio, _| {
+            studio.session.to_open.push(Pane::RayProbe);
+        }),
         editing("Show frame budget", "Lists what every processor took, and why it ran.", |studio, _| {
             studio.session.to_open.push(Pane::Budget);
         }),

@@ -14,9 +14,13 @@ pub fn open(tree: &mut Tree<Pane>, pane: Pane) {
     }
     let first = |wanted: fn(&Pane) -> bool| find(tree, wanted);
     let place = match pane {
-        Pane::Inspector(_) | Pane::Accuracy => first(|pane| matches!(pane, Pane::Inspector(_) | Pane::Accuracy))
-            .map(|inspector| (inspector, Some(LinearDir::Horizontal)))
-            .or_else(|| first(|pane| matches!(pane, Pane::Canvas)).map(|canvas| (canvas, Some(LinearDir::Horizontal)))),
+        Pane::Inspector(_) | Pane::Accuracy | Pane::RayProbe => {
+            first(|pane| matches!(pane, Pane::Inspector(_) | Pane::Accuracy | Pane::RayProbe))
+                .map(|inspector| (inspector, Some(LinearDir::Horizontal)))
+                .or_else(|| {
+                    first(|pane| matches!(pane, Pane::Canvas)).map(|canvas| (canvas, Some(LinearDir::Horizontal)))
+                })
+        }
         _ => first(|pane| matches!(pane, Pane::Properties)).map(|properties| (properties, None)),
     };
     let new = tree.tiles.insert_pane(pane);

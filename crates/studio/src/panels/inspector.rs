@@ -14,6 +14,8 @@ use crate::inspect::{self, Pixel, Statistics};
 use crate::session::Session;
 use crate::theme;
 
+use super::probe;
+
 /// Largest magnification of the fitted picture.
 const MAX_ZOOM: f32 = 200.0;
 /// Screen pixels for an image pixel from which on pixels are shown as squares.
@@ -94,7 +96,7 @@ impl View {
                 table(ui, image, statistics);
             }
         });
-        self.picture(ui, session, image, numbers);
+        self.picture(ui, session, outport, image, numbers);
     }
 
     fn toolbar(
@@ -184,7 +186,14 @@ impl View {
         }
     }
 
-    fn picture(&mut self, ui: &mut egui::Ui, session: &mut Session, image: &Arc<Image>, numbers: Option<&Statistics>) {
+    fn picture(
+        &mut self,
+        ui: &mut egui::Ui,
+        session: &mut Session,
+        outport: &Address,
+        image: &Arc<Image>,
+        numbers: Option<&Statistics>,
+    ) {
         let (area, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
         ui.painter().rect_filled(area, 0.0, ui.visuals().extreme_bg_color);
         self.navigate(ui, &response, area, image);
@@ -202,6 +211,7 @@ impl View {
             paint(ui, placed, picture);
         });
         self.pixel_under(&response, placed, image);
+        probe::pick(ui, &response, placed, session, &outport.processor, &outport.to_string());
         if let Some(pixel) = &self.pixel {
             let side = placed.width() / image.size()[0] as f32;
             let corner = placed.min + Vec2::new(pixel.at[0] as f32, pixel.at[1] as f32) * side;

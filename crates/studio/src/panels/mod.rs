@@ -8,8 +8,10 @@ mod dock;
 mod inspector;
 mod messages;
 mod network;
+mod probe;
 mod processors;
 pub(crate) mod properties;
+mod ray_probe;
 
 use egui_tiles::{Linear, LinearDir, TileId, Tiles, Tree};
 use rayloom_network::Address;
@@ -46,6 +48,8 @@ pub enum Pane {
     Budget,
     /// What visualization mode shows.
     Application,
+    /// What a traversal meets along the ray of a pixel.
+    RayProbe,
     /// What is on an outport, kept in sight.
     #[serde(skip)]
     Inspector(Address),
@@ -68,6 +72,7 @@ impl Pane {
             Self::Accuracy => "Accuracy".into(),
             Self::Budget => "Frame budget".into(),
             Self::Application => "Application".into(),
+            Self::RayProbe => "Ray probe".into(),
             Self::Inspector(outport) => outport.to_string(),
         }
     }
@@ -81,6 +86,7 @@ pub struct Panels {
     canvas: canvas::CanvasPanel,
     accuracy: accuracy::AccuracyPanel,
     inspectors: inspector::Inspectors,
+    ray_probe: ray_probe::RayProbePanel,
     properties: properties::PropertiesPanel,
     application: application::ApplicationPanel,
     visualization: Visualization,
@@ -102,6 +108,7 @@ impl Panels {
             Pane::Accuracy => self.accuracy.show(ui, session),
             Pane::Budget => budget::show(ui, session),
             Pane::Application => self.application.show(ui, session),
+            Pane::RayProbe => self.ray_probe.show(ui, session),
             Pane::Inspector(outport) => self.inspectors.show(ui, session, outport),
         }
     }

@@ -11,6 +11,7 @@ use egui::{Align2, Color32, FontId, Rect, Sense, Vec2};
 use rayloom_network::{Network, PropertyKind, Value};
 use rayloom_processors::Image;
 
+use super::probe;
 use crate::display::Look;
 use crate::inspect::image::paint;
 use crate::session::{CANVAS, Session};
@@ -26,6 +27,7 @@ pub const GESTURES: &[(&str, &str)] = &[
     ("Two fingers", "move, zoom and roll"),
     ("Double click", "centre on the surface"),
     ("Right click", "these as a menu"),
+    ("Ctrl click", "ray probe: follow the ray of a pixel"),
     ("A, Home", "show everything"),
     ("O", "orthographic or perspective"),
     ("1, 3, 7", "from the front, the right, above"),
@@ -91,6 +93,7 @@ impl CanvasPanel {
             let font = FontId::proportional(13.0);
             ui.painter().text(at, Align2::CENTER_BOTTOM, hint, font, Color32::from_white_alpha(220));
         }
+        probe::pick(ui, &response, shown, session, canvas, canvas);
     }
 
     /// The canvas to show; a choice where there are several.

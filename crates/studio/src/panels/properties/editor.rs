@@ -59,6 +59,8 @@ pub(super) struct Surroundings<'a> {
     pub properties: &'a Properties,
     /// The volume that flows into the processor.
     pub volume: Option<Arc<Volume>>,
+    /// The value that the ray probe points at.
+    pub marker: Option<f64>,
     /// Why the processor failed.
     pub failure: Option<&'a ProcessError>,
     /// The folder of the network file.

@@ -22,6 +22,7 @@ impl PropertiesPanel {
                 network: session.network(),
                 properties: &processor.properties(),
                 volume: upstream::volume(session.network(), &session.engine.results.outputs, id),
+                marker: session.probe.marker(id),
                 failure: session.engine.results.report.failed.get(id),
                 folder: session.document.path().and_then(Path::parent),
                 chooser: &session.chooser,

@@ -147,6 +147,7 @@ fn show_processor(
         network: session.network(),
         properties: &resolved.properties,
         volume: upstream::volume(session.network(), &session.engine.results.outputs, id),
+        marker: session.probe.marker(id),
         failure: session.engine.results.report.failed.get(id),
         folder: session.document.path().and_then(std::path::Path::parent),
         chooser: &session.chooser,

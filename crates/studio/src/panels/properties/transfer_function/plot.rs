@@ -77,6 +77,22 @@ pub(super) fn histogram(ui: &Ui, plot: &Plot, histogram: &Histogram, linear: boo
     ui.painter().with_clip_rect(plot.area).add(mesh);
 }
 
+/// The value that the ray probe points at, above the curve.
+pub(super) fn marker(ui: &Ui, plot: &Plot, value: f64) {
+    let color = ui.visuals().strong_text_color();
+    let painter = ui.painter().with_clip_rect(plot.area.expand(4.0));
+    let x = plot.x(value);
+    painter.extend(Shape::dashed_line(
+        &[Pos2::new(x, plot.area.top()), Pos2::new(x, plot.area.bottom())],
+        Stroke::new(1.0, color),
+        3.0,
+        2.0,
+    ));
+    let tip = Pos2::new(x, plot.area.top() + 5.0);
+    let corners = vec![Pos2::new(x - 4.0, plot.area.top()), Pos2::new(x + 4.0, plot.area.top()), tip];
+    painter.add(Shape::convex_polygon(corners, color, Stroke::NONE));
+}
+
 /// The curve of the opacity over its colours.
 pub(super) fn curve(ui: &Ui, plot: &Plot, function: &TransferFunction) {
     let painter = ui.painter().with_clip_rect(plot.area.expand(1.0));

@@ -1,0 +1,97 @@
+//! Which ray the user looks at.
+
+use std::collections::{BTreeSet, VecDeque};
+
+use rayloom_network::{Address, Network};
+
+use crate::panels::Pane;
+use crate::session::Session;
+
+/// Id of the type of the processors that walk rays.
+const TRAVERSAL: &str = "ray_traversal";
+
+/// A ray of a ray traversal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ray {
+    /// The traversal.
+    pub processor: String,
+    /// Its place in the picture, 0 to 1 from the left and from the top: pictures change their size.
+    pub at: [f32; 2],
+}
+
+impl Ray {
+    /// Column and row in a picture of this size.
+    pub fn pixel(&self, size: [u32; 2]) -> [u32; 2] {
+        [0, 1].map(|axis| {
+            let side = size[axis];
+            ((self.at[axis] * side as f32).max(0.0) as u32).min(side.saturating_sub(1))
+        })
+    }
+}
+
+/// What panels tell each other about the probed ray.
+#[derive(Default)]
+pub struct Probe {
+    /// The ray.
+    pub ray: Option<Ray>,
+    /// Where it was picked: a canvas, or the outport of an inspector.
+    pub picked_in: String,
+    /// The value under the cursor of the plots, in the unit of the volume: set by them, for the next frame.
+    marker: Option<f64>,
+    shown_marker: Option<f64>,
+}
+
+impl Probe {
+    /// To be called at the beginning of every frame.
+    pub fn begin_frame(&mut self) {
+        self.shown_marker = self.marker.take();
+    }
+
+    /// Marks a value in editors of the transfer function, in the next frame.
+    pub fn mark(&mut self, value: f64) {
+        self.marker = Some(value);
+    }
+
+    /// The value to mark in the editors of a processor.
+    pub fn marker(&self, processor: &str) -> Option<f64> {
+        self.shown_marker.filter(|_| self.ray.as_ref().is_some_and(|ray| ray.processor == processor))
+    }
+
+    /// Where to mark the ray in a picture: 0 to 1.
+    pub fn mark_in(&self, place: &str) -> Option<[f32; 2]> {
+        self.ray.as_ref().filter(|_| self.picked_in == place).map(|ray| ray.at)
+    }
+}
+
+impl Session {
+    /// Looks at the ray through a place (0 to 1) of what a processor shows or gives; whether there is a ray traversal behind it.
+    pub fn probe(&mut self, processor: &str, picked_in: impl Into<String>, at: [f32; 2]) -> bool {
+        let Some(traversal) = traversals(self.network(), processor).into_iter().next() else { return false };
+        self.probe.ray = Some(Ray { processor: traversal, at });
+        self.probe.picked_in = picked_in.into();
+        self.to_open.push(Pane::RayProbe);
+        true
+    }
+}
+
+/// The ray traversals at or upstream of a processor, the nearest first; beyond a traversal rays have other pixels.
+pub fn traversals(network: &Network, processor: &str) -> Vec<String> {
+    let mut queue = VecDeque::from([processor.to_owned()]);
+    let mut seen = BTreeSet::new();
+    let mut found = Vec::new();
+    while let Some(id) = queue.pop_front() {
+        let Some(processor) = network.processor(&id).filter(|_| seen.insert(id.clone())) else { continue };
+        if processor.type_id() == TRAVERSAL {
+            found.push(id);
+        } else {
+            queue.extend(network.inputs(&id).map(|connection| connection.from.processor.clone()));
+        }
+    }
+    found
+}
+
+/// The traversals that belong to the place where a ray was picked.
+pub fn choices(network: &Network, picked_in: &str) -> Vec<String> {
+    let outport = picked_in.parse::<Address>().ok();
+    traversals(network, outport.as_ref().map_or(picked_in, |outport| &outport.processor))
+}
