@@ -209,8 +209,12 @@ impl Runner {
         let traced = rest.chunks_exact(size_of::<Traced>()).take(head.taken as usize).map(pod_read_unaligned);
         let features = &shader.assembled.features;
         let classified = ["medium", "medium_at", "classify_value"].iter().any(|flag| features.has(flag));
-        let reads =
-            Reads { gradient: features.has("gradient"), classified, shaded: classified && features.has("shading") };
+        let reads = Reads {
+            gradient: features.has("gradient"),
+            classified,
+            shaded: classified && features.has("shading"),
+            behind: if features.has("segment_ends") { 1.0 } else { 0.5 },
+        };
         Ok(run.trace(&head, traced, reads))
     }
 }
@@ -221,6 +225,8 @@ struct Reads {
     gradient: bool,
     classified: bool,
     shaded: bool,
+    /// The share of its segment that lies before a sample.
+    behind: f64,
 }
 
 impl LastRun {
@@ -231,12 +237,13 @@ impl LastRun {
         let step_length = (self.texture_to_world.matrix3 * step).length();
         let sample = |traced: Traced| {
             let position = self.texture_to_world.transform_point3(entry + step * f64::from(traced.along));
+            let length = f64::from(traced.length) * self.reference_length;
             let [x, y, z, _] = traced.gradient.map(f64::from);
             TraceSample {
                 index: traced.index,
                 distance: f64::from(traced.along) * step_length,
-                start: f64::from(traced.index) * step_length,
-                length: f64::from(traced.length) * self.reference_length,
+                start: f64::from(traced.along) * step_length - length * reads.behind,
+                length,
                 position: position.into(),
                 value: self.range.denormalise(f64::from(traced.value)),
                 gradient: reads.gradient.then(|| DVec3::new(x, y, z).length() * self.range.width() / self.spacing),

@@ -114,6 +114,14 @@ fn segment(sample: &TraceSample, along: Along) -> [f64; 2] {
     }
 }
 
+/// What is in sight at first: the samples taken, and a little around them.
+fn extent(trace: &Trace, along: Along) -> [f64; 2] {
+    let [first, last] =
+        [trace.samples.first(), trace.samples.last()].map(|s| s.map_or([0.0; 2], |s| segment(s, along)));
+    let air = 0.08 * (last[1] - first[0]);
+    [(first[0] - air).max(0.0), (last[1] + air).min(end(trace, along))]
+}
+
 /// The end of the axis.
 fn end(trace: &Trace, along: Along) -> f64 {
     match along {
@@ -147,13 +155,14 @@ fn plot(
         .allow_boxed_zoom(false)
         .show_crosshair(false)
         .set_margin_fraction(Vec2::new(0.0, 0.08))
-        .include_x(0.0)
-        .include_x(end(trace, along))
+        .include_x(extent(trace, along)[0])
+        .include_x(extent(trace, along)[1])
+        .grid_color(ui.visuals().weak_text_color().gamma_multiply(0.35))
         .label_formatter(|_| None);
     for value in graph.range.into_iter().flatten() {
         plot = plot.include_y(value);
     }
-    let gap = ui.visuals().weak_text_color().gamma_multiply(0.10);
+    let gap = ui.visuals().weak_text_color().gamma_multiply(0.22);
     let cursor = ui.visuals().strong_text_color().gamma_multiply(0.6);
     let response = plot.show(ui, |plot| {
         for gap_range in gaps(trace, along) {

@@ -33,12 +33,12 @@ pub(super) fn show(ui: &mut Ui, trace: &Trace, sample: &TraceSample) {
     .on_hover_text(format!("world coordinates {}", sample.position.map(number).join(", ")));
     for (name, medium) in [("classified", sample.classified), ("shaded", sample.shaded)] {
         if let Some(medium) = medium {
-            color(ui, name, straight(medium), f64::from(opacity(medium)), "a reference length");
+            color(ui, name, straight(medium), f64::from(opacity(medium)), "Opacity of one reference length");
         }
     }
     for (output, rgba) in trace.outputs.iter().zip(&sample.accumulated) {
         let name = if trace.outputs.len() > 1 { format!("{} so far", output.outport) } else { "so far".into() };
-        color(ui, &name, straight(*rgba), f64::from(rgba[3]), "");
+        color(ui, &name, straight(*rgba), f64::from(rgba[3]), "What the pixel would be if the ray ended here");
     }
 }
 
@@ -47,11 +47,12 @@ fn color(ui: &mut Ui, name: &str, rgb: [f32; 3], opacity: f64, what: &str) {
     ui.horizontal(|ui| {
         let (swatch, _) = ui.allocate_exact_size(Vec2::new(22.0, 12.0), Sense::hover());
         ui.painter().rect_filled(swatch, 2.0, screen(rgb, 1.0));
-        let [r, g, b] = rgb.map(|c| number(f64::from(c)));
-        ui.label(
-            RichText::new(format!("{name}  {r} {g} {b}  opacity {} {what}", number(opacity))).monospace().size(11.5),
-        );
-    });
+        let [r, g, b] = rgb.map(|c| format!("{c:.3}"));
+        let text = format!("{name:<11}{r}  {g}  {b}   opacity {}", number(opacity));
+        ui.label(RichText::new(text).monospace().size(11.5));
+    })
+    .response
+    .on_hover_text(what);
 }
 
 /// The colour behind a medium or a premultiplied colour: its first three components over the fourth.
