@@ -85,7 +85,7 @@ fn values_are_those_of_the_reference() {
     for pixel in [[24, 16], [20, 12], [29, 19], [26, 13]] {
         let chord = chords[(pixel[1] * SIZE[0] + pixel[0]) as usize].expect("a ray through the volume");
         let steps = (chord.segment.exit - chord.segment.entry) * volume.dims_f64();
-        let lattice = Lattice::new(steps.length(), 1.7);
+        let lattice = Lattice::new(steps.length(), 1.7, 0.0);
         let traced = trace(&mut bench, pixel);
         assert!((traced.length - chord.length).abs() < 1e-5 * chord.length, "{} {}", traced.length, chord.length);
         assert_eq!(u64::from(traced.count), lattice.count);
