@@ -116,6 +116,12 @@ impl Processor {
         self.resolve().1
     }
 
+    /// Ids of the properties that change nothing as the others are now, while only the outports in `used` are.
+    pub fn idle_properties(&self, used: &BTreeSet<String>) -> BTreeSet<String> {
+        let (_, properties) = self.resolve();
+        self.processor_type.as_ref().map(|t| t.idle_properties(&properties, used)).unwrap_or_default()
+    }
+
     /// The declaration of one property.
     pub fn property_decl(&self, property: &str) -> Option<PropertyDecl> {
         self.property_decls().into_iter().find(|decl| decl.id == property)

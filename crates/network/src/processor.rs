@@ -1,5 +1,7 @@
 //! Processor types: what a kind of processor declares about itself.
 
+use std::collections::BTreeSet;
+
 use crate::port::{InportDecl, OutportDecl};
 use crate::properties::Properties;
 use crate::property::PropertyDecl;
@@ -105,5 +107,12 @@ pub trait ProcessorType: Send + Sync {
     fn snippet_properties(&self, current: &Properties) -> Vec<PropertyDecl> {
         let _ = current;
         Vec::new()
+    }
+
+    /// Ids of the properties that change nothing with the values in `current` while only the outports in `used` are: for
+    /// editors, which put them aside.
+    fn idle_properties(&self, current: &Properties, used: &BTreeSet<String>) -> BTreeSet<String> {
+        let _ = (current, used);
+        BTreeSet::new()
     }
 }

@@ -5,6 +5,7 @@ mod declare;
 mod dispatch;
 mod frame;
 mod gaps;
+mod idle;
 mod memo;
 mod memory;
 mod parameters;
@@ -15,6 +16,7 @@ mod splines;
 mod tables;
 mod trace;
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use rayloom_network::{Declaration, ImageKind, Job, Outputs, ProcessError, ProcessorType, Properties, PropertyDecl};
@@ -53,6 +55,10 @@ impl ProcessorType for RayTraversal {
 
     fn snippet_properties(&self, current: &Properties) -> Vec<PropertyDecl> {
         parameters::declarations(&self.library, current)
+    }
+
+    fn idle_properties(&self, current: &Properties, used: &BTreeSet<String>) -> BTreeSet<String> {
+        idle::idle(&self.library, current, used)
     }
 }
 

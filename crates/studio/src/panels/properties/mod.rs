@@ -95,15 +95,17 @@ impl Cache {
         if self.revision == revision && wanted().eq(self.processors.iter().map(|(id, _)| id)) {
             return;
         }
-        let resolve = |id: &String| Some((id.clone(), Resolved::of(session.network().processor(id)?)));
+        let network = session.network();
+        let resolve = |id: &String| Some((id.clone(), Resolved::of(network, network.processor(id)?)));
         *self = Self { revision, processors: session.selection.iter().filter_map(resolve).collect() };
     }
 }
 
 impl Resolved {
-    fn of(processor: &Processor) -> Self {
-        let properties = processor.properties();
-        Self { sections: outline::sections(processor.property_decls(), &properties), properties }
+    fn of(network: &Network, processor: &Processor) -> Self {
+        let used = network.outputs(processor.id()).map(|connection| connection.from.item.clone()).collect();
+        let idle = processor.idle_properties(&used);
+        Self { sections: outline::sections(processor.property_decls(), &idle), properties: processor.properties() }
     }
 
     /// The processor's declared properties in the order of the panel.

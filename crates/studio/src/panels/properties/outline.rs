@@ -1,8 +1,8 @@
 //! The order of the panel: sections, and parameters below the property that brings them.
 
-use rayloom_network::{Properties, PropertyDecl, PropertyKind};
-use rayloom_processors::snippet_library;
-use rayloom_wgsl::{Library, Slot, parse_declaration};
+use std::collections::BTreeSet;
+
+use rayloom_network::{PropertyDecl, PropertyKind};
 
 /// A headed part of the panel.
 pub(super) struct Section {
@@ -29,27 +29,21 @@ impl Entry {
     }
 }
 
-/// The properties in the order of the panel. Transfer functions that no chosen snippet reads are left out.
-pub(super) fn sections(decls: Vec<PropertyDecl>, properties: &Properties) -> Vec<Section> {
-    let reads = reads(&decls, properties);
-    let used = |kind: &PropertyKind| match (&reads, kind) {
-        (Some(reads), PropertyKind::TransferFunction) => {
-            reads.iter().any(|word| word == "transfer_function" || word.starts_with("preintegration"))
-        }
-        (Some(reads), PropertyKind::TransferFunction2D) => reads.iter().any(|word| word == "transfer_function_2d"),
-        (Some(reads), PropertyKind::Labels) => reads.iter().any(|word| word == "labels"),
-        _ => true,
-    };
-    let mut sections = ["Colour and opacity", "Shader", "Settings"].map(|title| Section { title, entries: Vec::new() });
+/// The heading of what changes nothing as the other properties are.
+pub(super) const IDLE: &str = "Without effect now";
+
+/// The properties in the order of the panel, those in `idle` last.
+pub(super) fn sections(decls: Vec<PropertyDecl>, idle: &BTreeSet<String>) -> Vec<Section> {
+    let titles = ["Colour and opacity", "Shader", "Settings", IDLE];
+    let mut sections = titles.map(|title| Section { title, entries: Vec::new() });
     for entry in entries(decls) {
         let place = match entry.decl.kind {
+            _ if idle.contains(&entry.decl.id) => 3,
             PropertyKind::TransferFunction | PropertyKind::TransferFunction2D | PropertyKind::Labels => 0,
             PropertyKind::Snippet { .. } | PropertyKind::ShaderText { .. } => 1,
             _ => 2,
         };
-        if used(&entry.decl.kind) {
-            sections[place].entries.push(entry);
-        }
+        sections[place].entries.push(entry);
     }
     sections.into_iter().filter(|section| !section.entries.is_empty()).collect()
 }
@@ -75,29 +69,6 @@ fn entries(decls: Vec<PropertyDecl>) -> Vec<Entry> {
     entries
 }
 
-/// What the chosen snippets read, in the words of their declarations; `None` for a processor without snippets.
-fn reads(decls: &[PropertyDecl], properties: &Properties) -> Option<Vec<String>> {
-    let (library, _) = snippet_library();
-    let mut reads = None;
-    for decl in decls {
-        let PropertyKind::Snippet { slot } = &decl.kind else { continue };
-        let words: &mut Vec<String> = reads.get_or_insert_default();
-        let edited = properties.text(&format!("{}.text", decl.id)).unwrap_or_default();
-        if !edited.trim().is_empty() {
-            // A broken text is shown as such where it is edited.
-            words.extend(parse_declaration("text", edited).into_iter().flat_map(|declaration| declaration.reads));
-        } else if let (Some(slot), Ok(id)) = (Slot::from_id(slot), properties.text(&decl.id)) {
-            words.extend(chosen(&library, slot, id));
-        }
-    }
-    reads
-}
-
-fn chosen(library: &Library, slot: Slot, id: &str) -> impl Iterator<Item = String> {
-    let declaration = library.path(slot, id).and_then(|path| library.declaration(&path).cloned());
-    declaration.into_iter().flat_map(|declaration| declaration.reads.clone())
-}
-
 #[cfg(test)]
 mod tests {
     use std::sync::Arc;
@@ -114,7 +85,7 @@ mod tests {
             network.set_property("traversal", property, Value::Text((*value).into())).expect("set");
         }
         let processor = network.processor("traversal").expect("there");
-        sections(processor.property_decls(), &processor.properties())
+        sections(processor.property_decls(), &processor.idle_properties(&BTreeSet::new()))
     }
 
     fn colours(sections: &[Section]) -> Vec<&str> {
@@ -131,8 +102,11 @@ mod tests {
     }
 
     #[test]
-    fn only_what_the_classification_reads_is_shown() {
+    fn what_the_classification_does_not_read_stands_last() {
         assert_eq!(colours(&outline(&[])), ["transfer_function"]);
+        let sections = outline(&[]);
+        let idle = sections.last().filter(|section| section.title == IDLE).expect("idle properties");
+        assert!(idle.entries.iter().any(|entry| entry.decl.id == "label_table"));
         assert_eq!(colours(&outline(&[("classification", "transfer_function_2d")])), ["transfer_function_2d"]);
         assert_eq!(colours(&outline(&[("classification", "labels")])), ["label_table"]);
     }

@@ -6,7 +6,7 @@ use rayloom_network::{Address, PropertyDecl, PropertyKind};
 use super::action::Action;
 use super::editor::{self, Surroundings};
 use super::link;
-use super::outline::Entry;
+use super::outline::{Entry, IDLE};
 
 /// Height of a row.
 pub(super) const HEIGHT: f32 = 20.0;
@@ -23,7 +23,7 @@ const INDENT: f32 = 10.0;
 pub(super) fn section(ui: &mut Ui, title: &str, body: impl FnOnce(&mut Ui)) {
     ui.add_space(4.0);
     let heading = RichText::new(title).size(11.5).color(ui.visuals().weak_text_color());
-    egui::CollapsingHeader::new(heading).id_salt(title).default_open(true).show_unindented(ui, body);
+    egui::CollapsingHeader::new(heading).id_salt(title).default_open(title != IDLE).show_unindented(ui, body);
 }
 
 /// A property with what belongs to it.
