@@ -64,6 +64,24 @@ impl Features {
 }
 
 impl Choice {
+    /// These snippets for a volume of one channel, with every switch off.
+    pub fn of(snippets: BTreeMap<Slot, Arc<str>>, outputs: [Option<Arc<str>>; MAX_OUTPUTS]) -> Self {
+        Self {
+            snippets,
+            outputs,
+            early_termination: false,
+            statistics: false,
+            sample_map: false,
+            gaps: false,
+            jitter: false,
+            trace: false,
+            trace: false,
+            half_targets: false,
+            channel: 0,
+            channels: 1,
+        }
+    }
+
     /// Checks the combination.
     ///
     /// # Errors
@@ -310,19 +328,8 @@ pub fn legal_choices(library: &Library) -> BTreeSet<Choice> {
             .collect::<Vec<_>>()
     };
     let mut found = BTreeSet::new();
-    let mut partial = vec![Choice {
-        snippets: BTreeMap::new(),
-        outputs: Default::default(),
-        early_termination: true,
-        statistics: false,
-        sample_map: false,
-        jitter: false,
-        trace: false,
-        half_targets: false,
-        gaps: false,
-        channel: 0,
-        channels: 1,
-    }];
+    let nothing = Choice::of(BTreeMap::new(), Default::default());
+    let mut partial = vec![Choice { early_termination: true, ..nothing }];
     for slot in Slot::ALL {
         let options = ids(slot);
         partial = partial

@@ -18,19 +18,7 @@ fn choice(library: &Library, slots: &[(Slot, &str)], output: &str) -> Choice {
     ];
     let mut snippets: BTreeMap<_, _> = defaults.into_iter().map(|(slot, id)| (slot, path(slot, id))).collect();
     snippets.extend(slots.iter().map(|&(slot, id)| (slot, path(slot, id))));
-    Choice {
-        snippets,
-        outputs: [Some(path(Slot::Compositing, output)), None, None],
-        early_termination: true,
-        statistics: false,
-        sample_map: false,
-        jitter: false,
-        trace: false,
-        half_targets: false,
-        gaps: false,
-        channel: 0,
-        channels: 1,
-    }
+    Choice { early_termination: true, ..Choice::of(snippets, [Some(path(Slot::Compositing, output)), None, None]) }
 }
 
 /// The text of a built-in snippet.

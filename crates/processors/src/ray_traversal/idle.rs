@@ -63,17 +63,7 @@ fn choice(library: &mut Library, properties: &Properties, used: &BTreeSet<String
             None => snippets.extend(place.path(library, properties).ok()?.map(|path| (place.slot, path))),
         }
     }
-    Some(Choice {
-        snippets,
-        outputs,
-        early_termination: false,
-        statistics: false,
-        sample_map: false,
-        jitter: false,
-        half_targets: false,
-        channel: 0,
-        channels: 1,
-    })
+    Some(Choice::of(snippets, outputs))
 }
 
 #[cfg(test)]
