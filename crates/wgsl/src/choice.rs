@@ -75,7 +75,6 @@ impl Choice {
             gaps: false,
             jitter: false,
             trace: false,
-            trace: false,
             half_targets: false,
             channel: 0,
             channels: 1,
