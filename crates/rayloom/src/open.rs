@@ -27,6 +27,8 @@ pub fn run(network: Option<&PathBuf>, mode: StartMode) -> Result<String, Failure
         network: network.map(|path| Path::to_owned(path)),
         mode,
         folders: Folders::of_user(),
+        shipped: rayloom_studio::shipped_folder(),
+        welcome: network.is_none(),
         ..Options::default()
     };
     rayloom_studio::run(options).map_err(|error| Failure::new(format!("the window cannot be opened: {error}")))?;

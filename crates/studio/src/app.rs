@@ -17,6 +17,7 @@ use crate::panels::{self, Pane, Panels};
 use crate::session::{Mode, Session, Severity};
 use crate::theme;
 use crate::visualization::Application;
+use crate::welcome::{self, Welcome};
 
 /// What to start with.
 #[derive(Clone, Debug, Default)]
@@ -29,6 +30,10 @@ pub struct Options {
     pub chooser: Chooser,
     /// Where to keep what belongs to the user; with none, nothing is kept.
     pub folders: Option<Folders>,
+    /// Where the networks are that come with the program.
+    pub shipped: Option<PathBuf>,
+    /// Whether to begin with the welcome page.
+    pub welcome: bool,
 }
 
 /// The application.
@@ -41,6 +46,7 @@ pub struct Studio {
     pub(crate) palette: Palette,
     pub(crate) key_list: KeyList,
     preferences: Preferences,
+    pub(crate) welcome: Welcome,
     complaints: Complaints,
 }
 
@@ -77,6 +83,11 @@ impl Studio {
             settings.apply(&creation.egui_ctx);
         }
         let tiles = settings.layout.clone().unwrap_or_else(panels::default_layout);
+        let cache = options.folders.as_ref().map(|folders| folders.cache.as_path());
+        let mut welcome = Welcome::new(options.shipped.clone(), cache);
+        if options.welcome {
+            welcome.open(&session);
+        }
         let preferences = Preferences::new(settings, options.folders.as_ref());
         Ok(Self {
             session,
@@ -86,6 +97,7 @@ impl Studio {
             palette: Palette::default(),
             key_list: KeyList::default(),
             preferences,
+            welcome,
             complaints,
         })
     }
@@ -116,6 +128,20 @@ impl Studio {
         }
         self.key_list.show(context);
         self.files.show(&mut self.session, context);
+    }
+
+    fn welcome_page(&mut self, ui: &mut egui::Ui) {
+        let context = ui.ctx().clone();
+        let recent = self.files.recent(&context);
+        let choice = self.welcome.show(ui, &self.session, recent);
+        let (files, session) = (&mut self.files, &mut self.session);
+        match choice {
+            Some(welcome::Choice::New) if session.network().processors().next().is_none() => self.welcome.close(),
+            Some(welcome::Choice::New) => files.new_network(session, &context),
+            Some(welcome::Choice::Choose) => files.choose(session, &context),
+            Some(welcome::Choice::Open(path)) => files.open(&path, session, &context),
+            None => {}
+        }
     }
 
     fn status_line(&self, ui: &mut egui::Ui) {
@@ -211,7 +237,9 @@ impl eframe::App for Studio {
             egui::Panel::bottom("status").show(ui, |ui| self.status_line(ui));
         }
         self.files.bars(ui, &mut self.session);
+        self.welcome.follow(&self.session, &context);
         egui::CentralPanel::default().frame(egui::Frame::new()).show(ui, |ui| match self.session.mode {
+            Mode::Development if self.welcome.is_open() => self.welcome_page(ui),
             Mode::Development => {
                 let mut behavior = Behavior { session: &mut self.session, panels: &mut self.panels };
                 self.tiles.ui(&mut behavior, ui);

@@ -25,6 +25,7 @@ mod task;
 mod theme;
 mod views;
 mod visualization;
+mod welcome;
 mod wiring;
 
 pub use app::{Options, Studio};
@@ -40,6 +41,7 @@ pub use probe::{Probe, Ray};
 pub use quality::Quality;
 pub use session::{Message, Mode, Session, Severity};
 pub use visualization::{Application, Change, Exposed, Group, Layout, Preset};
+pub use welcome::shipped_folder;
 
 /// Opens the window and runs until it is closed.
 ///

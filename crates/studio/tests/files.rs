@@ -10,7 +10,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use rayloom_network::Network;
 use rayloom_studio::{Chooser, Folders, Options, Pane, Studio};
-use window::{keep_picture, project, studio, wait_for, wait_until};
+use window::{drop_file, keep_picture, project, studio, wait_for, wait_until};
 
 type Window = Harness<'static, Studio>;
 
@@ -158,25 +158,6 @@ fn tiny(folder: &Path) -> PathBuf {
     let path = folder.join("tiny.json");
     std::fs::write(&path, r#"{"rayloom": 1, "name": "Tiny", "processors": []}"#).expect("written");
     path
-}
-
-fn drop_file(window: &mut Window, path: &Path) {
-    window.input_mut().dropped_files.push(Arc::new(Dropped(path.to_owned())));
-    window.run_steps(3);
-}
-
-/// A file from the desktop.
-#[derive(Debug)]
-struct Dropped(PathBuf);
-
-impl egui::DroppedFile for Dropped {
-    fn path(&self) -> &Path {
-        &self.0
-    }
-
-    fn bytes(&self) -> Result<Vec<u8>, String> {
-        std::fs::read(&self.0).map_err(|error| error.to_string())
-    }
 }
 
 #[test]

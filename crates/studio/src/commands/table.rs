@@ -217,6 +217,9 @@ const VIEW: &[&[Command]] = &[
 ];
 
 const HELP: &[&[Command]] = &[&[
+    editing("Welcome page", "Shows what comes with Rayloom and what was opened lately.", |studio, _| {
+        studio.welcome.open(&studio.session);
+    }),
     Command::new("All commands...", "Opens the palette, to search commands and processors.", |studio, _| {
         studio.palette.open();
     })

@@ -5,6 +5,7 @@
 pub mod nodes;
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use egui_kittest::Harness;
@@ -90,5 +91,24 @@ pub fn wait_until<T>(harness: &mut Harness<'_, T>, holds: impl Fn(&T) -> bool) {
         assert!(start.elapsed() < PATIENCE, "waited for too long");
         harness.step();
         std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+/// Drops a file from the desktop onto the window.
+pub fn drop_file<T>(harness: &mut Harness<'_, T>, path: &Path) {
+    harness.input_mut().dropped_files.push(Arc::new(Dropped(path.to_owned())));
+    harness.run_steps(3);
+}
+
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
     }
 }
