@@ -106,3 +106,7 @@ pub const AGREEMENT_GRADIENT: f64 = 0.5 / 255.0;
 /// Ray probe: a value interpolated with float weights, as a share of the range. Positions are rounded by [`CHORD`] of a box of
 /// up to 60 voxels, along which the value changes by up to a third of the range a voxel.
 pub const PROBED_VALUE: f64 = 1.2e-5;
+/// Estimated over true error of smooth scenes: this at most, or its reciprocal at least.
+pub const ESTIMATE: f64 = 1.5;
+/// Estimated over true error of any scene: half at least, so that nobody trusts a picture too much.
+pub const ESTIMATE_LEAST: f64 = 0.5;

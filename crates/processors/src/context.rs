@@ -9,7 +9,8 @@ use rayloom_gpu::{Gpu, GpuError, PipelineCache, Texture, TexturePool, Timer};
 
 use rayloom_volume::Progress;
 
-use crate::MISS;
+use crate::explain::{Explanation, Role, texture};
+use crate::{Ledger, MISS};
 
 /// Told how far a slow processor is: its id, and its progress.
 pub type ProgressListener = Box<dyn FnMut(&str, Progress) + Send>;
@@ -26,6 +27,8 @@ pub struct Context {
     pub timer: Timer,
     /// Whether ray traversals count rays and samples, which costs a little time.
     pub count_samples: bool,
+    /// Where processors write down what they do and why.
+    pub ledger: Ledger,
     /// Whom to tell about progress.
     pub progress: Option<ProgressListener>,
     states: HashMap<(String, TypeId), Box<dyn Any + Send>>,
@@ -46,6 +49,7 @@ impl Context {
             pipelines: PipelineCache::new(),
             timer,
             count_samples: false,
+            ledger: Ledger::default(),
             progress: None,
             states: HashMap::new(),
             blank_color,
@@ -79,14 +83,25 @@ impl Context {
         self.states.retain(|(id, _), _| exists(id));
     }
 
+    /// A target from the pool, of `size` pixels. Its contents are old, so write every pixel.
+    pub fn target(&mut self, label: &str, size: [u32; 2], format: TextureFormat) -> Result<Arc<Texture>, GpuError> {
+        let made = self.pool.counts().created;
+        let target = self.pool.get(&self.gpu, label, size, format)?;
+        let why = if self.pool.counts().created > made { "made anew" } else { "taken over from an earlier use" };
+        self.ledger.record(|| {
+            Explanation::new(Role::Allocated, format!("{label}: {}", texture(&target)), why).bytes(target.bytes())
+        });
+        Ok(target)
+    }
+
     /// A colour target from the pool: rgba32float of `size` pixels. Its contents are old, so write every pixel.
     pub fn color_target(&mut self, label: &str, size: [u32; 2]) -> Result<Arc<Texture>, GpuError> {
-        self.pool.get(&self.gpu, label, size, TextureFormat::Rgba32Float)
+        self.target(label, size, TextureFormat::Rgba32Float)
     }
 
     /// A depth target from the pool: r32float of `size` pixels. Its contents are old, so write every pixel.
     pub fn depth_target(&mut self, label: &str, size: [u32; 2]) -> Result<Arc<Texture>, GpuError> {
-        self.pool.get(&self.gpu, label, size, TextureFormat::R32Float)
+        self.target(label, size, TextureFormat::R32Float)
     }
 
     /// One transparent texel, for an optional colour input that is not connected.

@@ -168,8 +168,8 @@ impl Pass {
         size: [u32; 2],
         format: TextureFormat,
     ) -> Result<Arc<Texture>, GpuError> {
-        let target = context.pool.get(&context.gpu, self.outport, size, format)?;
-        let depth = context.pool.get(&context.gpu, "depth test", size, TextureFormat::Depth32Float)?;
+        let target = context.target(self.outport, size, format)?;
+        let depth = context.target("depth test", size, TextureFormat::Depth32Float)?;
         let pipeline = context.pipelines.render(&context.gpu, "entry/exit points", SHADER, &self.state(format))?;
         let gpu = &context.gpu;
         gpu.guarded("entry/exit points", || {

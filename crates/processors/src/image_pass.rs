@@ -4,6 +4,7 @@ use rayloom_gpu::wgpu;
 use rayloom_gpu::{GpuError, Texture};
 
 use crate::Context;
+use crate::explain::{Explanation, Role};
 
 /// Side of a workgroup; the shaders say `@workgroup_size(8, 8)`.
 const GROUP: u32 = 8;
@@ -38,6 +39,10 @@ pub struct ImagePass<'a> {
 impl Context {
     /// Runs a computation for every pixel; its time is measured if that is switched on.
     pub fn run_image_pass(&mut self, pass: &ImagePass<'_>) -> Result<(), GpuError> {
+        self.ledger.record(|| {
+            let [width, height] = pass.size;
+            Explanation::new(Role::Computed, format!("{} at {width} x {height} pixels", pass.label), "one pass")
+        });
         let gpu = &self.gpu;
         let pipeline = self.pipelines.compute(gpu, pass.label, pass.wgsl, pass.entry_point)?;
         let uniforms = pass

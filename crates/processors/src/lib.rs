@@ -14,6 +14,7 @@ mod context;
 mod cube_proxy;
 mod data;
 mod entry_exit_points;
+mod explain;
 mod gradient_volume;
 mod image_export;
 mod image_file;
@@ -29,6 +30,7 @@ mod volume_texture;
 
 pub use context::{Context, ProgressListener};
 pub use data::{Data, Image, JobData, MISS, Mesh, Precision, VolumeData};
+pub use explain::{Explanation, Ledger, Role};
 pub use image_file::{ImageFileError, Picture, read_picture, write_exr, write_npy, write_picture, write_png};
 pub use image_pass::{Bind, ImagePass};
 pub use process::{PlainProcess, Process, Runner, Work};

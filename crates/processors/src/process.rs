@@ -69,6 +69,12 @@ impl Runner {
         self.context.count_samples = enabled;
     }
 
+    /// Switches explaining on or off; off at first. What runs then do and save themselves is read with
+    /// [`crate::Explanation::of`].
+    pub fn explain(&mut self, enabled: bool) {
+        self.context.ledger.enable(enabled);
+    }
+
     /// Frees what is left of processors that are gone, and render targets beyond what the next evaluation may want.
     /// To be called after an evaluation or an edit.
     pub fn tidy(&mut self, exists: impl Fn(&str) -> bool) {
@@ -92,6 +98,7 @@ impl Backend for Runner {
             ))
         })?;
         let context = &mut self.context;
+        context.ledger.begin();
         let gpu = context.gpu.clone();
         let result = gpu.guarded(job.id, || process.process(context, job));
         let mut outputs = match result {
@@ -99,6 +106,7 @@ impl Backend for Runner {
             Ok(Err(error)) => return self.failed(error),
             Err(error) => return self.failed(error.into()),
         };
+        self.context.ledger.finish(job, &mut outputs);
         let measured = self.context.timer.finish(&gpu)?;
         outputs.gpu_time = outputs.gpu_time.or(measured);
         Ok(outputs)

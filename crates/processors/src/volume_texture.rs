@@ -1,5 +1,7 @@
 //! Volumes as 3-D textures: which format holds them, how texels turn into normalised values, and the upload.
 
+use std::sync::Arc;
+
 use half::f16;
 use rayloom_gpu::wgpu::{TextureFormat, TextureUsages};
 use rayloom_gpu::{Features, Gpu, GpuError, Texture};
@@ -21,7 +23,7 @@ const SLAB_BYTES: usize = 64 << 20;
 #[derive(Debug)]
 pub struct GpuVolume {
     /// The 3-D texture; voxel (i, j, k) is texel (i, j, k).
-    pub texture: Texture,
+    pub texture: Arc<Texture>,
     /// Whether it can be sampled with a filtering sampler.
     pub filterable: bool,
     /// With `offset`: `texel * scale + offset` is the normalised value, 0 to 1 over the channel's range. Where the volume
@@ -48,7 +50,7 @@ impl GpuVolume {
         });
         let filterable = gpu.filterable(storage.format);
         let (scale, offset) = storage.decoding();
-        Ok(Self { texture, filterable, scale, offset })
+        Ok(Self { texture: Arc::new(texture), filterable, scale, offset })
     }
 }
 

@@ -36,6 +36,8 @@ pub enum Command {
     /// Measure what speed costs in accuracy: times, samples and errors of many settings, with a page that says what to
     /// choose.
     Measure(MeasureArgs),
+    /// Say for every processor what was computed, bound and allocated and why, and what was left out and why.
+    Explain(ExplainArgs),
     /// Verify the ray loop on this device: by what power errors fall as steps, voxels and pixels get smaller.
     Verify(VerifyArgs),
     /// Say whether a network can be rendered, and if not, why. Needs no graphics adapter.
@@ -155,6 +157,22 @@ pub struct MeasureArgs {
     /// The folder for measurements.csv, measurements.json and report.html; made if it is not there.
     #[arg(short, long, value_name = "FOLDER")]
     pub output: PathBuf,
+}
+
+/// Arguments of `rayloom explain`.
+#[derive(Debug, Args)]
+pub struct ExplainArgs {
+    /// The network file (JSON).
+    pub network: PathBuf,
+    /// Set a property first; may be repeated, in this order. The value is JSON, or a bare word for a text.
+    #[arg(long, value_name = "PROCESSOR.PROPERTY=JSON", value_parser = setting)]
+    pub set: Vec<Setting>,
+    /// Size of the pictures in pixels, in place of those of the canvases.
+    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size)]
+    pub size: Option<[u32; 2]>,
+    /// Print JSON.
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// Arguments of `rayloom verify`.

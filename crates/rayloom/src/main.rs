@@ -4,6 +4,7 @@ mod adapter;
 mod args;
 mod check;
 mod environment;
+mod explain;
 mod failure;
 mod info;
 mod list;
@@ -47,6 +48,7 @@ fn run(command: Option<&Command>) -> Result<String, Failure> {
     match command {
         Command::Render(args) => render::run(args),
         Command::Measure(args) => measure::run(args),
+        Command::Explain(args) => explain::run(args),
         Command::Verify(args) => verify::run(args),
         Command::Check { network } => check::run(network),
         Command::List(args) => list::run(args),

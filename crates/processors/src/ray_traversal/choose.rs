@@ -24,6 +24,8 @@ pub(super) struct Plan<'a> {
     pub most_samples: Option<u32>,
     /// What the skipping map depends on, when there is skipping.
     pub skipping: Option<Question<'a>>,
+    /// Why there is skipping, or not.
+    pub skipping_why: String,
 }
 
 pub(super) fn plan<'a>(
@@ -43,7 +45,7 @@ pub(super) fn plan<'a>(
     let only_samples = !OUTPORTS.iter().any(|outport| job.wants(outport));
     for place in PLACES {
         match place.output {
-            Some(output) if !job.wants(OUTPORTS[output]) && !(only_samples && output == 0) => {}
+            Some(output) if !(job.wants(OUTPORTS[output]) || only_samples && output == 0) => {}
             Some(output) => outputs[output] = place.path(&mut library, job.properties)?,
             None => {
                 snippets.extend(place.path(&mut library, job.properties)?.map(|path| (place.slot, path)));
@@ -64,7 +66,7 @@ pub(super) fn plan<'a>(
         channels: volume.channels,
     };
     fit_sampling(&library, context, inputs, &mut choice, notes)?;
-    let skipping = fit_skipping(&library, job, inputs, memory, &mut choice, channel)?;
+    let (skipping, skipping_why) = fit_skipping(&library, job, inputs, memory, &mut choice, channel)?;
     let features = choice.check(&library).map_err(|problems| {
         ProcessError::new(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
     })?;
@@ -75,7 +77,7 @@ pub(super) fn plan<'a>(
         )));
     }
     let most_samples = most_samples(context, job, inputs, features.has("search"), notes)?;
-    Ok(Plan { library, choice, channel, most_samples, skipping })
+    Ok(Plan { library, choice, channel, most_samples, skipping, skipping_why })
 }
 
 /// The samples a ray may take before the driver would stop it without a word; longer rays get longer steps, and a note.
@@ -137,7 +139,8 @@ fn fit_sampling(
     Ok(())
 }
 
-/// Chooses skipping when that is left to the program: where it is legal and little enough of the volume is visible.
+/// Chooses skipping when that is left to the program: where it is legal and little enough of the volume is visible. With the
+/// reason.
 fn fit_skipping<'a>(
     library: &Library,
     job: &Job<'_, Data>,
@@ -145,25 +148,33 @@ fn fit_skipping<'a>(
     memory: &mut Memory,
     choice: &mut Choice,
     channel: u32,
-) -> Result<Option<Question<'a>>, ProcessError> {
+) -> Result<(Option<Question<'a>>, String), ProcessError> {
     let volume = &inputs.volume.volume;
     if choice.snippets.contains_key(&Slot::Skipping) {
         // `none` asks nothing; an illegal choice is refused by the check that follows.
         let question = Question::of(library, choice, job.properties, volume, channel)?;
         let absent =
             choice.snippets.get(&Slot::Skipping).and_then(|path| library.declaration(path)).is_some_and(|d| d.absent);
-        return Ok(question.filter(|_| !absent));
+        let why = if absent { "`none` is chosen" } else { "chosen" };
+        return Ok((question.filter(|_| !absent), why.into()));
     }
-    let Some(path) = library.path(Slot::Skipping, "distance") else { return Ok(None) };
+    let nothing = |why: String| Ok((None, why));
+    let Some(path) = library.path(Slot::Skipping, "distance") else { return nothing("there is no snippet".into()) };
     let mut trial = choice.clone();
     trial.snippets.insert(Slot::Skipping, path);
-    if trial.check(library).is_err() {
-        return Ok(None);
+    if let Err(problems) = trial.check(library) {
+        return nothing(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join(" "));
     }
-    let Some(question) = Question::of(library, &trial, job.properties, volume, channel)? else { return Ok(None) };
-    if question.map(&mut memory.skipping, &mut memory.splines)?.occupied > WORTHWHILE {
-        return Ok(None);
+    let Some(question) = Question::of(library, &trial, job.properties, volume, channel)? else {
+        return nothing("nothing tells which values show".into());
+    };
+    let occupied = question.map(&mut memory.skipping, &mut memory.splines)?.occupied;
+    let (share, most) = (100.0 * occupied, 100.0 * WORTHWHILE);
+    if occupied > WORTHWHILE {
+        return nothing(format!(
+            "{share:.0} % of the bricks may show something, more than {most:.0} %: leaping costs more"
+        ));
     }
     *choice = trial;
-    Ok(Some(question))
+    Ok((Some(question), format!("{share:.0} % of the bricks may show something, no more than {most:.0} %")))
 }

@@ -11,9 +11,11 @@ use rayloom_wgsl::Validated;
 use serde_json::{Map, json};
 
 use super::choose::Plan;
+use super::explain::purpose;
 use super::frame::{Frame, reference_length};
 use super::memory::Memory;
 use super::{Inputs, OUTPORTS, parameters, tables};
+use crate::explain::{Explanation, Role, texture};
 use crate::{Context, Data};
 
 /// Side of a workgroup; the skeleton says `@workgroup_size(8, 8)`.
@@ -51,16 +53,26 @@ pub(super) struct Drawn {
 #[derive(Clone)]
 pub(super) enum Resource {
     Texture(Arc<Texture>),
-    View(wgpu::TextureView),
     Buffer(wgpu::Buffer),
     Sampler(wgpu::Sampler),
 }
 
 impl Resource {
+    /// What is bound to a global variable of the shader, and what for.
+    fn explanation(&self, name: &str) -> Explanation {
+        let bound = |what: &str| Explanation::new(Role::Bound, format!("{name}: {what}"), purpose(name));
+        match self {
+            // Render targets tell their memory where they are taken.
+            Self::Texture(target) if name.starts_with("out") => bound(&texture(target)),
+            Self::Texture(read) => bound(&texture(read)).bytes(read.bytes()),
+            Self::Buffer(buffer) => bound("buffer").bytes(buffer.size()),
+            Self::Sampler(_) => bound("linear filter"),
+        }
+    }
+
     fn binding(&self) -> wgpu::BindingResource<'_> {
         match self {
             Self::Texture(texture) => wgpu::BindingResource::TextureView(&texture.view),
-            Self::View(view) => wgpu::BindingResource::TextureView(view),
             Self::Buffer(buffer) => buffer.as_entire_binding(),
             Self::Sampler(sampler) => wgpu::BindingResource::Sampler(sampler),
         }
@@ -82,12 +94,16 @@ impl Pass<'_> {
                     ("sample_map", _, Some(samples)) => Resource::Texture(samples.clone()),
                     (name, ..) => self.resource(name, context, memory, &frame, &targets)?,
                 };
+                context.ledger.record(|| resource.explanation(&field.name));
                 Ok((field.name.clone(), resource))
             })
             .collect::<Result<Vec<_>, ProcessError>>()?;
         let label = format!("ray traversal `{}`", self.job.id);
         let groups = self.inputs.view.size.map(|pixels| pixels.div_ceil(GROUP));
         submit(context, &label, self.shader, &resources, groups, true)?;
+        if context.ledger.is_enabled() {
+            context.ledger.extend(self.explanations()?);
+        }
         let counted = counters.map(|counters| counts(&context.gpu, &counters)).transpose()?;
         // Targets go back to the pool when nobody shows them any more.
         resources.retain(|(name, _)| name != "counters" && name != "sample_map" && !name.starts_with("out"));
@@ -109,7 +125,7 @@ impl Pass<'_> {
         }
         for (index, target) in targets.iter_mut().enumerate() {
             if self.plan.choice.outputs[index].is_some() {
-                let color = context.pool.get(&context.gpu, OUTPORTS[index], self.inputs.view.size, format)?;
+                let color = context.target(OUTPORTS[index], self.inputs.view.size, format)?;
                 let depth = context.depth_target("view depth", self.inputs.view.size)?;
                 *target = Some(Target { color, depth });
             }
@@ -176,7 +192,7 @@ impl Pass<'_> {
             "volume" if self.reads("prefiltered") => {
                 Resource::Texture(memory.splines.texture(gpu, &self.inputs.volume.volume, self.plan.channel)?)
             }
-            "volume" => Resource::View(self.inputs.volume.on_gpu(gpu)?.texture.view.clone()),
+            "volume" => Resource::Texture(self.inputs.volume.on_gpu(gpu)?.texture.clone()),
             "linear_sampler" => Resource::Sampler(linear_sampler(gpu)),
             "entry_points" => Resource::Texture(self.inputs.entry.color.clone()),
             "exit_points" => Resource::Texture(self.inputs.exit.color.clone()),
@@ -198,7 +214,7 @@ impl Pass<'_> {
             }
             "label_volume" => {
                 let labels = self.inputs.labels.unwrap_or(self.inputs.volume);
-                Resource::View(labels.on_gpu(gpu)?.texture.view.clone())
+                Resource::Texture(labels.on_gpu(gpu)?.texture.clone())
             }
             "label_table" => {
                 let table = properties.labels("label_table")?;

@@ -3,6 +3,7 @@
 mod choose;
 mod declare;
 mod dispatch;
+mod explain;
 mod frame;
 mod gaps;
 mod idle;

@@ -22,7 +22,7 @@ pub(super) fn resample(
     }
     let format = rays.color.texture.format();
     let pixels = Target {
-        color: context.pool.get(&context.gpu, "resampled image", job.size, format)?,
+        color: context.target("resampled image", job.size, format)?,
         depth: context.depth_target("resampled depth", job.size)?,
     };
     let wgsl = match format {
