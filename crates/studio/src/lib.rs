@@ -20,6 +20,8 @@ mod palette;
 mod panels;
 mod probe;
 mod quality;
+#[cfg(test)]
+mod random_edits;
 mod session;
 mod task;
 mod theme;

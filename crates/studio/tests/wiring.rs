@@ -5,8 +5,8 @@ mod window;
 use egui::{Event, Key, Modifiers, Pos2, Vec2};
 use egui_kittest::kittest::Queryable;
 use rayloom_studio::Options;
-use window::nodes::{self, Window, add, drag, drag_and_drop, key, on_canvas, socket, wire};
-use window::{flagship, keep_picture, studio, wait_for};
+use window::nodes::{self, Window, add, canvas, drag, drag_and_drop, key, on_canvas, socket, wire};
+use window::{keep_picture, studio, wait_for};
 
 const SOURCE_TO_CANVAS: [&str; 6] = [
     "volume_generator.volume -> cube_proxy.volume",
@@ -159,30 +159,116 @@ fn copies_are_text_and_the_list_adds_into_wires() {
     keep_picture(&mut window, "arranged");
 }
 
+/// A wire of each kind: volume, geometry, entry points, exit points, colour, data.
+const KINDS: [&str; 6] = [
+    "source.volume -> proxy.volume",
+    "proxy.geometry -> view.geometry",
+    "view.entry -> traversal.entry",
+    "view.exit -> traversal.exit",
+    "background.image -> canvas.image",
+    "traversal.image2 -> depth.source",
+];
+
+/// The middle of a wire: it is the same upside down.
+fn middle(window: &Window, wire: &str) -> Pos2 {
+    let (from, to) = wire.split_once(" -> ").expect("a wire");
+    let [from, to] = [format!("output {from}"), format!("input {to}")].map(|label| window.get_by_label(&label).rect());
+    from.center().lerp(to.center(), 0.5)
+}
+
+/// Rests somewhere until a tooltip is there.
+fn rest(window: &mut Window, at: Pos2) {
+    window.hover_at(at);
+    window.run_steps(24);
+}
+
 #[test]
-fn resting_on_a_wire_shows_what_flows_there_at_any_zoom() {
-    let mut window = studio(flagship());
+fn resting_on_a_wire_of_any_kind_or_its_socket_shows_what_flows_there_at_any_zoom() {
+    let network = Some(window::project("networks/depth_color.json"));
+    let mut window = studio(Options { network, ..Options::default() });
     wait_for(&mut window, "processor canvas (Canvas): ready");
-    let ends = ["output source.volume", "input proxy.volume"];
-    for zoom in [0.5, 1.0, 2.0] {
-        let middle = |window: &Window| {
-            window.get_by_label(ends[0]).rect().center().lerp(window.get_by_label(ends[1]).rect().center(), 0.5)
-        };
-        window.hover_at(middle(&window));
-        window.run_steps(2);
-        let shown = window.get_by_label(ends[0]).rect().width() / 18.0;
-        window.event(Event::Zoom(zoom / shown));
-        window.run_steps(3);
-        let now = window.get_by_label(ends[0]).rect().width() / 18.0;
-        assert!((now - zoom).abs() < 0.01, "zoom {now} instead of {zoom}");
-        window.hover_at(Pos2::new(600.0, 10.0));
-        window.run_steps(30);
-        assert!(window.query_by_label("source.volume").is_none(), "shown although nothing rests there");
-        window.hover_at(middle(&window));
-        window.run_steps(30);
-        assert!(window.query_by_label("source.volume").is_some(), "nothing shown at zoom {zoom}");
-        keep_picture(&mut window, &format!("wire_{zoom}"));
+    for wire in KINDS {
+        let (outport, _) = wire.split_once(" -> ").expect("a wire");
+        let output = format!("output {outport}");
+        for zoom in [0.5, 1.0, 2.0] {
+            window.get_by_label("Show all").click();
+            window.run_steps(8);
+            let at = middle(&window, wire);
+            window.hover_at(at);
+            window.run_steps(2);
+            let shown = window.get_by_label(&output).rect().width() / 18.0;
+            window.event(Event::Zoom(zoom / shown));
+            window.run_steps(3);
+            let now = window.get_by_label(&output).rect().width() / 18.0;
+            assert!((now - zoom).abs() < 0.01, "zoom {now} instead of {zoom}");
+            rest(&mut window, Pos2::new(600.0, 10.0));
+            assert!(window.query_by_label(outport).is_none(), "{outport} is shown although nothing rests there");
+            let at = middle(&window, wire);
+            rest(&mut window, at);
+            assert!(window.query_by_label(outport).is_some(), "nothing shown on {wire} at zoom {zoom}");
+            let socket = window.get_by_label(&output).rect().center();
+            if canvas(&window).contains(socket) {
+                rest(&mut window, Pos2::new(600.0, 10.0));
+                rest(&mut window, socket);
+                assert!(window.query_by_label(outport).is_some(), "nothing shown on {output} at zoom {zoom}");
+            }
+        }
     }
+    // The key pins what rests under the pointer, the middle button any wire.
+    window.get_by_label("Show all").click();
+    window.run_steps(8);
+    let at = middle(&window, KINDS[0]);
+    rest(&mut window, at);
+    key(&mut window, Modifiers::NONE, Key::P);
+    let at = middle(&window, KINDS[4]);
+    window.hover_at(at);
+    window.run_steps(3);
+    for pressed in [true, false] {
+        let (button, modifiers) = (egui::PointerButton::Middle, Modifiers::NONE);
+        window.event(Event::PointerButton { pos: at, button, pressed, modifiers });
+        window.run_steps(2);
+    }
+    window.hover_at(Pos2::new(600.0, 10.0));
+    window.run_steps(10);
+    for pinned in ["source.volume", "background.image"] {
+        assert!(window.query_all_by_label(pinned).next().is_some(), "{pinned} is not pinned");
+    }
+    keep_picture(&mut window, "pinned");
+}
+
+#[test]
+fn cameras_link_by_themselves_and_properties_by_dragging_their_names() {
+    let mut window = chain();
+    let second = on_canvas(&window, (0.45, 0.85));
+    add(&mut window, "entry", second);
+    let links = |window: &Window| -> Vec<String> {
+        window.state().session.network().links().iter().map(ToString::to_string).collect()
+    };
+    let linked = "entry_exit_points.camera = entry_exit_points_2.camera";
+    assert_eq!(links(&window), [linked]);
+    assert!(
+        window.state().session.messages.iter().any(|message| message.text.contains("follows entry_exit_points.camera"))
+    );
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert!(links(&window).is_empty() && window.state().session.network().processor("entry_exit_points_2").is_none());
+    key(&mut window, Modifiers::COMMAND, Key::Y);
+    assert_eq!(links(&window), [linked]);
+
+    // Dragged onto a node: a menu of what may follow.
+    let session = &mut window.state_mut().session;
+    session.edit("cut", |network| {
+        network.unlink(("entry_exit_points", "camera"), ("entry_exit_points_2", "camera"));
+        Ok::<(), std::convert::Infallible>(())
+    });
+    session.selection = ["entry_exit_points_2".to_owned()].into();
+    window.run_steps(3);
+    let name = window.get_by_label("Menu of Camera").rect().center();
+    let node = window.get_by_label_contains("processor entry_exit_points (").rect().center();
+    drag_and_drop(&mut window, name, node);
+    keep_picture(&mut window, "link_menu");
+    window.get_by_role_and_label(egui::accesskit::Role::Button, "Camera").click();
+    window.run_steps(4);
+    assert_eq!(links(&window), ["entry_exit_points_2.camera = entry_exit_points.camera"]);
 }
 
 #[test]

@@ -74,16 +74,16 @@ impl Session {
     }
 }
 
-/// What flows from an outport, for a tooltip: live, and computed if it was not needed so far. It can be pinned as a pane,
-/// by its button or the key P.
+/// What flows from an outport, for a tooltip: live, and computed if it was not needed so far. The key P pins it as a pane (a
+/// button could not be reached: the tooltip keeps its distance from the pointer).
 pub fn hover(ui: &mut egui::Ui, session: &mut Session, outport: &Address) {
     session.watched.insert(outport.clone());
     ui.spacing_mut().item_spacing = egui::vec2(6.0, 4.0);
     ui.horizontal(|ui| {
         heading(ui, session, outport);
-        let by_key = ui.ctx().text_edit_focused();
-        let by_key = !by_key && ui.input(|input| input.key_pressed(egui::Key::P) && input.modifiers.is_none());
-        if ui.small_button("Pin (P)").on_hover_text("Keep this as a pane.").clicked() || by_key {
+        ui.weak("P pins it");
+        let typing = ui.ctx().text_edit_focused();
+        if !typing && ui.input(|input| input.key_pressed(egui::Key::P) && input.modifiers.is_none()) {
             session.to_open.push(Pane::Inspector(outport.clone()));
         }
     });

@@ -4,6 +4,7 @@ use rayloom_network::{Address, Connection, Declaration, EditError, Network, Port
 use thiserror::Error;
 
 use super::connect::{End, connect};
+use super::link::link_cameras;
 
 /// Why processors cannot be wired this way.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -29,7 +30,8 @@ pub enum WiringError {
     NoWire(Box<Connection>),
 }
 
-/// Adds a processor of a type at a place. Returns its id, which is that of its type while it is free.
+/// Adds a processor of a type at a place. Returns its id, which is that of its type while it is free. Its camera follows the
+/// others where these are one.
 ///
 /// # Errors
 /// An unknown type, or a place that is not finite.
@@ -37,6 +39,7 @@ pub fn add(network: &mut Network, type_id: &str, at: [f64; 2]) -> Result<String,
     let id = network.free_id(type_id);
     network.add(type_id, &id)?;
     network.set_position(&id, at)?;
+    link_cameras(network, &id);
     Ok(id)
 }
 

@@ -1,12 +1,10 @@
 use std::collections::BTreeSet;
-use std::path::Path;
 use std::sync::Arc;
 
 use rayloom_network::{Connection, Network};
 use serde_json::json;
 
 use super::*;
-use crate::document::Document;
 
 /// source -> proxy -> view -> traversal -> canvas, the volume also into the traversal.
 fn chain() -> Network {
@@ -118,72 +116,4 @@ fn copies_keep_values_and_the_wires_among_them() {
     assert!(wires(&network).contains(&"view_2.entry -> traversal_3.entry".to_owned()));
     let refused = paste(&mut network, "not a network", [0.0, 0.0]).expect_err("refused");
     assert!(refused.to_string().starts_with("the clipboard holds no processors: "), "{refused}");
-}
-
-/// Numbers that look random and are the same in every run.
-struct Dice(u64);
-
-impl Dice {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        ((self.0 >> 33) as usize) % n.max(1)
-    }
-}
-
-fn random_edit(dice: &mut Dice, network: &mut Network) {
-    let ids: Vec<String> = network.processors().map(|p| p.id().to_owned()).collect();
-    let one = |dice: &mut Dice| ids.get(dice.below(ids.len())).cloned().unwrap_or_default();
-    let types: Vec<String> = network.registry().declarations().map(|d| d.id.clone()).collect();
-    let type_id = types[dice.below(types.len())].clone();
-    let connections = network.connections();
-    let wire = connections.get(dice.below(connections.len())).cloned();
-    let at = [dice.below(900) as f64, dice.below(600) as f64];
-    // What does not fit is refused, as it would be in the window, and leaves no step.
-    let _ = match (dice.below(9), wire) {
-        (0, _) => add(network, &type_id, at).map(drop).map_err(|e| e.to_string()),
-        (1, Some(wire)) => insert(network, &type_id, at, &wire).map(drop).map_err(|e| e.to_string()),
-        (2, _) => replace(network, &one(dice), &type_id).map_err(|e| e.to_string()),
-        (3, _) => duplicate(network, &set(&[&one(dice)])).map(drop).map_err(|e| e.to_string()),
-        (4, _) => remove(network, &set(&[&one(dice)]), &BTreeSet::new()).map_err(|e| e.to_string()),
-        (5, _) => remove_and_reconnect(network, &set(&[&one(dice)])).map_err(|e| e.to_string()),
-        (6, _) => network.set_position(&one(dice), at).map_err(|e| e.to_string()),
-        (7, _) => {
-            let text = copy(network, &set(&[&one(dice), &one(dice)]));
-            paste(network, &text, at).map(drop).map_err(|e| e.to_string())
-        }
-        (_, Some(wire)) => {
-            network.disconnect(&wire.from, &wire.to);
-            Ok(())
-        }
-        (_, None) => Ok(()),
-    };
-}
-
-#[test]
-fn fifty_random_edits_are_undone_and_redone_byte_for_byte() {
-    let registry = Arc::new(rayloom_processors::registry());
-    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../networks/brain.json");
-    for seed in 0..8 {
-        let (mut document, _) = Document::load(&shipped, &registry).expect("loaded");
-        let (mut dice, mut texts) = (Dice(seed), vec![document.text()]);
-        while texts.len() <= 50 {
-            let edit = |network: &mut Network| -> Result<(), String> {
-                random_edit(&mut dice, network);
-                Ok(())
-            };
-            document.edit("edit", edit).expect("edited");
-            if texts.last() != Some(&document.text()) {
-                texts.push(document.text());
-            }
-        }
-        for text in texts.iter().rev().skip(1) {
-            assert!(document.undo());
-            assert_eq!(document.text(), *text);
-        }
-        assert!(!document.undo() && !document.is_modified());
-        for text in &texts[1..] {
-            assert!(document.redo());
-            assert_eq!(document.text(), *text);
-        }
-    }
 }

@@ -7,6 +7,8 @@ use rayloom_network::{Address, Connection, EditError, Network, Refusal, Value};
 
 use super::NetworkPanel;
 use super::drag::Drag;
+use super::menus::LooseLink;
+use crate::panels::Pane;
 use crate::session::{Session, Severity};
 use crate::wiring::{self, End};
 
@@ -23,6 +25,12 @@ pub enum Action {
     Connect(Connection, Option<Connection>),
     /// Removes one wire.
     Cut(Connection),
+    /// Keeps what is on an outport in sight.
+    Pin(Address),
+    /// Lets a property (the second) follow another.
+    Link(Address, Address),
+    /// Offers the properties of a processor that may follow a property.
+    OfferLinks(LooseLink),
     /// Adds a processor of a type, its middle at a point.
     Add(String, Pos2),
     /// Adds a processor for the loose end of a wire: type, port, loose end.
@@ -78,6 +86,11 @@ impl NetworkPanel {
             Action::Hold(end) => self.drag = Some(Drag::start(session.network(), end)),
             Action::Connect(wire, held) => connect(session, &wire, held.as_ref()),
             Action::Cut(wire) => cut(session, &wire),
+            Action::Pin(outport) => session.to_open.push(Pane::Inspector(outport)),
+            Action::Link(leader, follower) => {
+                session.edit(&format!("link {follower} and {leader}"), |network| network.link(&leader, &follower));
+            }
+            Action::OfferLinks(menu) => self.loose_link = Some(menu),
             Action::Delete { reconnect } => self.delete(session, reconnect),
             Action::Copy => copy(context, session),
             Action::Fit => self.fit = true,
@@ -148,8 +161,14 @@ fn select_new<E: std::fmt::Display>(
     change: impl FnOnce(&mut Network) -> Result<BTreeSet<String>, E>,
 ) {
     let mut new = BTreeSet::new();
+    let links = session.network().links().len();
     if session.edit(label, |network| change(network).map(|ids| new = ids)) {
         session.selection = new;
+        let linked = session.network().links().iter().skip(links);
+        let notes: Vec<String> = linked
+            .map(|link| format!("{} follows {}; links are cut in the menu of its name", link.b, link.a))
+            .collect();
+        notes.into_iter().for_each(|note| session.tell(Severity::Note, note));
     }
 }
 

@@ -16,6 +16,9 @@ pub const WIRE: EdgeShape = EdgeShape::Flow { curvature: 0.5, min_span: 36.0 };
 /// Distance from a socket within which a wire snaps to it, points of the canvas.
 const SNAP: f32 = 22.0;
 
+/// Radius of a socket for the pointer, points of the canvas.
+const RADIUS: f32 = 8.0;
+
 /// Spacing of the points that a wire is measured by.
 const STEP: f32 = 5.0;
 
@@ -64,6 +67,12 @@ impl Geometry {
         near.min_by(|a, b| a.1.distance_sq(at).total_cmp(&b.1.distance_sq(at))).map(|(end, _)| end)
     }
 
+    /// The socket of a processor that covers a point.
+    pub fn socket_at(&self, at: Pos2, processor: &str) -> Option<&End> {
+        self.socket_near(at, |end| end.address().processor == processor)
+            .filter(|end| self.sockets.get(end).is_some_and(|place| place.distance(at) <= RADIUS))
+    }
+
     /// The way of a wire between two points, the first where data comes out.
     pub fn path(from: Pos2, to: Pos2) -> Path {
         WIRE.path((from, Vec2::RIGHT), &[], (to, Vec2::LEFT))
@@ -76,13 +85,19 @@ impl Geometry {
         Some(Self::path(*from, *to).flatten(STEP).collect())
     }
 
-    /// The connection whose wire passes a point.
+    /// The connection whose wire passes a point; the nearest where several do.
     pub fn wire_at<'a>(&self, network: &'a Network, at: Pos2) -> Option<&'a Connection> {
         let distance = |wire: &Connection| {
             let points = self.points(wire)?;
-            points.iter().map(|point| point.distance(at)).min_by(f32::total_cmp)
+            points.windows(2).map(|ends| distance_to_segment(at, ends[0], ends[1])).min_by(f32::total_cmp)
         };
         let near = network.connections().iter().filter_map(|wire| Some((distance(wire)?, wire)));
         near.filter(|(distance, _)| *distance < SNAP).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, wire)| wire)
     }
+}
+
+fn distance_to_segment(at: Pos2, from: Pos2, to: Pos2) -> f32 {
+    let along = to - from;
+    let share = (at - from).dot(along) / along.length_sq().max(f32::MIN_POSITIVE);
+    at.distance(from + along * share.clamp(0.0, 1.0))
 }

@@ -1,13 +1,13 @@
 //! The menus of the canvas.
 
 use egui::{Button, Pos2, ScrollArea, Ui};
-use rayloom_network::Connection;
+use rayloom_network::{Address, Connection};
 
 use super::action::Action;
 use super::geometry::Geometry;
 use crate::catalog;
 use crate::session::Session;
-use crate::wiring::{End, fits_into, fitting};
+use crate::wiring::{End, fits_into, fitting, followers};
 
 /// A menu of the processors that a loose wire may end at.
 pub struct LooseEnd {
@@ -16,6 +16,17 @@ pub struct LooseEnd {
     /// Where the wire was let go, on the canvas.
     pub at: Pos2,
     /// The same in the window.
+    pub window: Pos2,
+}
+
+/// A menu of the properties that may follow one that was dropped on their node.
+#[derive(Clone, Debug)]
+pub struct LooseLink {
+    /// The property that leads.
+    pub leader: Address,
+    /// The processor whose properties are offered.
+    pub processor: String,
+    /// Where it was dropped, in the window.
     pub window: Pos2,
 }
 
@@ -62,9 +73,37 @@ pub fn wire(ui: &mut Ui, session: &Session, wire: &Connection, geometry: &Geomet
             }
         });
     }
+    if item(ui, "Pin", "Middle click, P") {
+        actions.push(Action::Pin(wire.from.clone()));
+    }
     if item(ui, "Cut", "Alt+click") {
         actions.push(Action::Cut(wire.clone()));
     }
+}
+
+/// The properties that may follow one; `None` when one was chosen or the menu left.
+pub fn loose_link(ui: &Ui, session: &Session, menu: LooseLink, actions: &mut Vec<Action>) -> Option<LooseLink> {
+    let followers = followers(session.network(), &menu.leader, &menu.processor);
+    let mut open = true;
+    egui::Popup::new(ui.id().with("loose link"), ui.ctx().clone(), menu.window, ui.layer_id())
+        .kind(egui::PopupKind::Menu)
+        .layout(egui::Layout::top_down_justified(egui::Align::Min))
+        .style(egui::containers::menu::menu_style)
+        .open_bool(&mut open)
+        .show(|ui| {
+            ui.set_min_width(180.0);
+            ui.weak(format!("follows {}", menu.leader));
+            for (follower, decl) in &followers {
+                if ui.button(&decl.label).on_hover_text(&decl.help).clicked() {
+                    actions.push(Action::Link(menu.leader.clone(), follower.clone()));
+                    ui.close();
+                }
+            }
+            if followers.is_empty() {
+                ui.label(format!("No property of {} can follow it.", menu.processor));
+            }
+        });
+    open.then_some(menu)
 }
 
 /// The menu of the empty canvas; `at` is where it was opened.

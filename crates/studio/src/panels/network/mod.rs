@@ -15,7 +15,7 @@ use std::collections::{BTreeSet, HashSet};
 
 use egui::{DragAndDrop, Event, Key, Pos2, Rect, Response, Ui};
 use egui_graph::{Graph, View};
-use rayloom_network::{Connection, EditError};
+use rayloom_network::{Address, Connection, EditError};
 
 use crate::catalog::NewProcessor;
 use crate::inspect;
@@ -24,7 +24,7 @@ use crate::wiring::End;
 pub use action::Action;
 use drag::{Drag, Target};
 use geometry::Geometry;
-use menus::LooseEnd;
+use menus::{LooseEnd, LooseLink};
 use scene::{Resting, Scene, node_id};
 
 /// Distance from a wire at which the pointer touches it, points of the window.
@@ -54,6 +54,7 @@ pub struct NetworkPanel {
     wires: BTreeSet<Connection>,
     drag: Option<Drag>,
     loose_end: Option<LooseEnd>,
+    loose_link: Option<LooseLink>,
     /// Where the menu of the empty canvas was opened.
     menu_at: Pos2,
     /// Whether the last click was here, so that keys are meant for the canvas.
@@ -70,6 +71,7 @@ impl Default for NetworkPanel {
             wires: BTreeSet::new(),
             drag: None,
             loose_end: None,
+            loose_link: None,
             menu_at: Pos2::ZERO,
             attentive: true,
         }
@@ -271,6 +273,8 @@ impl NetworkPanel {
         let at = ui.input(|input| input.pointer.latest_pos()).and_then(|at| self.geometry.on_canvas(at));
         if let Some(at) = at
             && ui.input(|input| input.pointer.primary_released())
+            // Taking something of another type would lose it.
+            && DragAndDrop::has_payload_of_type::<NewProcessor>(ui.ctx())
             && let Some(new) = DragAndDrop::take_payload::<NewProcessor>(ui.ctx())
         {
             let type_id = new.0.clone();
@@ -278,6 +282,15 @@ impl NetworkPanel {
                 Some(wire) => Action::Insert(type_id, wire.clone(), at),
                 None => Action::Add(type_id, at),
             });
+        }
+        if let Some(at) = at
+            && ui.input(|input| input.pointer.primary_released())
+            && let Some(processor) = self.geometry.node_at(at)
+            && DragAndDrop::has_payload_of_type::<Address>(ui.ctx())
+            && let Some(leader) = DragAndDrop::take_payload::<Address>(ui.ctx())
+        {
+            let (window, processor) = (self.geometry.to_window * at, processor.to_owned());
+            actions.push(Action::OfferLinks(LooseLink { leader: (*leader).clone(), processor, window }));
         }
         let files = ui.input(|input| input.raw.dropped_files.clone());
         for file in files {
@@ -291,6 +304,9 @@ impl NetworkPanel {
         if let Some(menu) = self.loose_end.take() {
             self.loose_end = menus::loose_end(ui, session, menu, actions);
         }
+        if let Some(menu) = self.loose_link.take() {
+            self.loose_link = menus::loose_link(ui, session, menu, actions);
+        }
     }
 
     /// What resting on a node, a socket or a wire shows.
@@ -298,12 +314,22 @@ impl NetworkPanel {
         if self.drag.is_some() || self.loose_end.is_some() || ui.input(|input| input.pointer.any_down()) {
             return;
         }
+        let pointer = ui.input(|input| input.pointer.latest_pos());
+        let on_canvas = pointer.and_then(|at| self.geometry.on_canvas(at));
         for (response, what) in resting {
             match what {
-                Resting::Node(id) => drop(response.on_hover_ui(|ui| state::tooltip(ui, session, &id))),
+                // The inner half of a socket lies on its node.
+                Resting::Node(id) => drop(match on_canvas.and_then(|at| self.geometry.socket_at(at, &id)) {
+                    Some(end) => response.on_hover_ui_at_pointer(|ui| socket_tooltip(ui, session, end)),
+                    None => response.on_hover_ui(|ui| state::tooltip(ui, session, &id)),
+                }),
                 Resting::Socket(end) => drop(response.on_hover_ui_at_pointer(|ui| socket_tooltip(ui, session, &end))),
+                // Where wires lie side by side, the library knows the last one that is near, not the nearest.
                 Resting::Wire(wire) => {
-                    response.on_hover_ui_at_pointer(|ui| inspect::hover(ui, session, &wire.from));
+                    let nearest = on_canvas.filter(|_| response.hovered());
+                    let nearest = nearest.and_then(|at| self.geometry.wire_at(session.network(), at)).cloned();
+                    let outport = nearest.unwrap_or(wire).from;
+                    response.on_hover_ui_at_pointer(|ui| inspect::hover(ui, session, &outport));
                 }
             }
         }

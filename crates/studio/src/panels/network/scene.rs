@@ -243,6 +243,9 @@ impl<'a> Scene<'a> {
         edge.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("wire {wire}")));
         let changed = edge.changed();
         let response: Response = edge.into();
+        if response.middle_clicked() {
+            self.actions.push(Action::Pin(wire.from.clone()));
+        }
         if response.clicked() && ui.input(|input| input.modifiers.alt) {
             self.actions.push(Action::Cut(wire.clone()));
         } else if changed {

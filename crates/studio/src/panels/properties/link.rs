@@ -6,6 +6,7 @@ use rayloom_network::{Address, Network, PropertyDecl};
 use super::action::Action;
 use super::editor::Surroundings;
 use crate::session::Severity;
+use crate::theme;
 use crate::visualization::{Application, Change};
 
 /// The menu behind a property's name.
@@ -50,6 +51,37 @@ pub(super) fn menu(ui: &mut Ui, decl: &PropertyDecl, address: &Address, surround
             }
         }
     });
+}
+
+/// Lets the name of a property be dragged onto another, here or on a node, which follows it then.
+pub(super) fn drag(
+    ui: &Ui,
+    decl: &PropertyDecl,
+    address: &Address,
+    response: &egui::Response,
+    surroundings: &mut Surroundings<'_>,
+) {
+    response.dnd_set_drag_payload(address.clone());
+    if response.dragged() {
+        let layer = ui.layer_id();
+        let tooltip = egui::Tooltip::always_open(
+            ui.ctx().clone(),
+            layer,
+            response.id.with("carried"),
+            egui::PopupAnchor::Pointer,
+        );
+        tooltip.gap(12.0).show(|ui| ui.label(format!("{} leads; drop it on what follows", decl.label)));
+    }
+    let Some(leader) = response.dnd_hover_payload::<Address>().filter(|leader| **leader != *address) else { return };
+    let verdict = surroundings.network.can_link(&leader, address);
+    let color = if verdict.is_ok() { theme::READY } else { theme::ERROR };
+    ui.painter().rect_stroke(response.rect, 3.0, egui::Stroke::new(1.5, color), egui::StrokeKind::Outside);
+    if response.dnd_release_payload::<Address>().is_some() {
+        surroundings.actions.push(match verdict {
+            Ok(()) => Action::Link(address.clone(), (*leader).clone()),
+            Err(refusal) => Action::Tell(Severity::Error, refusal.to_string()),
+        });
+    }
 }
 
 /// Shows the property in visualization mode, in a group to choose where there are several, or hides it there.

@@ -106,7 +106,7 @@ fn is_wide(kind: &PropertyKind) -> bool {
 
 /// The name: help when hovered, menu when clicked, a mark when linked.
 fn name(ui: &mut Ui, decl: &PropertyDecl, address: &Address, width: f32, surroundings: &mut Surroundings<'_>) {
-    let (area, response) = ui.allocate_exact_size(Vec2::new(width, HEIGHT), Sense::click());
+    let (area, response) = ui.allocate_exact_size(Vec2::new(width, HEIGHT), Sense::click_and_drag());
     response
         .widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, format!("Menu of {}", decl.label)));
     let linked = surroundings.network.links().iter().any(|link| link.other(address).is_some());
@@ -125,6 +125,9 @@ fn name(ui: &mut Ui, decl: &PropertyDecl, address: &Address, width: f32, surroun
     let galley = ui.painter().layout_job(job);
     let at = egui::pos2(area.left() + mark, area.center().y - galley.size().y / 2.0);
     ui.painter().galley(at, galley, color);
+    if surroundings.authoring {
+        link::drag(ui, decl, address, &response, surroundings);
+    }
     let response = response.on_hover_ui(|ui| help(ui, decl, address, surroundings));
     let clicked = response.clicked() || response.secondary_clicked();
     let menu = egui::Popup::menu(&response).open_memory(clicked.then_some(egui::SetOpenCommand::Toggle));
