@@ -19,7 +19,7 @@ pub(crate) struct Bench {
     runner: Runner,
     evaluator: Evaluator<Runner>,
     pub chain: Chain,
-    size: [u32; 2],
+    pub size: [u32; 2],
 }
 
 impl Bench {

@@ -3,7 +3,7 @@
 //! A [`Plan`] names settings of a network: variations of its properties ([`Vary`]) and ready ladders of knobs ([`ladder`]).
 //! [`measure`] renders every setting from several views, times it, counts its samples and compares it with a reference; a
 //! [`Measurements`] is written as CSV, JSON and a page to read ([`write_all`]). [`Subject`] translates what a ray traversal
-//! shows into a scene of the float64 reference, which can also be drawn on its own ([`draw`]).
+//! shows into a scene of the float64 reference, which can also be drawn on its own ([`draw`]). [`tune`] picks a setting.
 
 mod advice;
 mod bench;
@@ -27,6 +27,7 @@ mod report;
 mod run;
 mod scene;
 mod setting;
+mod tune;
 pub mod verify;
 mod views;
 mod yardstick;
@@ -46,4 +47,5 @@ pub use refine::Refiner;
 pub use run::measure;
 pub use scene::Subject;
 pub use setting::{Assignment, Setting, Vary};
+pub use tune::{Goal, Progress, Tried, Tuned, Verdict, picture_error, tune};
 pub use yardstick::Standard;

@@ -40,6 +40,8 @@ pub enum Command {
     Explain(ExplainArgs),
     /// Verify the ray loop on this device: by what power errors fall as steps, voxels and pixels get smaller.
     Verify(VerifyArgs),
+    /// Pick the cheapest setting whose pictures keep within an error, or the most accurate within a time.
+    Tune(TuneArgs),
     /// Say whether a network can be rendered, and if not, why. Needs no graphics adapter.
     Check {
         /// The network file (JSON).
@@ -95,6 +97,9 @@ pub struct RenderArgs {
     /// Of a camera or light only the fields to change need be given.
     #[arg(long, value_name = "PROCESSOR.PROPERTY=JSON", value_parser = setting)]
     pub set: Vec<Setting>,
+    /// Apply a preset of the network, before anything is set.
+    #[arg(long, value_name = "NAME")]
+    pub preset: Option<String>,
     /// Size of the picture in pixels, in place of the canvas's.
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size)]
     pub size: Option<[u32; 2]>,
@@ -208,6 +213,50 @@ pub struct ProbeArgs {
     pub set: Vec<Setting>,
 }
 
+/// Arguments of `rayloom tune`.
+#[derive(Debug, Args)]
+#[command(group(clap::ArgGroup::new("goal").required(true).multiple(true).args(["max_error", "budget"])))]
+pub struct TuneArgs {
+    /// The network file (JSON).
+    pub network: PathBuf,
+    /// Set a property first; may be repeated, in this order. The value is JSON, or a bare word for a text.
+    #[arg(long, value_name = "PROCESSOR.PROPERTY=JSON", value_parser = setting)]
+    pub set: Vec<Setting>,
+    /// The largest error, such as 0.004 or 1/255: neither the root mean square error nor the error of 99 % of the pixels may
+    /// be larger, on any view. Errors are of premultiplied colours from 0 to 1, in the pixels that show anything.
+    #[arg(long, value_name = "ERROR", value_parser = fraction)]
+    pub max_error: Option<f64>,
+    /// The longest time that a picture may take, milliseconds on the device, at the size of the canvas.
+    #[arg(long, value_name = "MS")]
+    pub budget: Option<f64>,
+    /// Where to write the network with the setting as a preset; may be the network file itself. Without it the preset is
+    /// printed.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// What the preset is called, in place of a name made from the goal.
+    #[arg(long)]
+    pub name: Option<String>,
+    /// Number of camera views to choose by, all around the focus of the saved one; half as many join them where it is close.
+    #[arg(long, default_value_t = 6, value_parser = clap::value_parser!(u16).range(2..=64))]
+    pub views: u16,
+    /// Number of further views that the choice is then looked at from.
+    #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..=64))]
+    pub unseen: u16,
+    /// Size of the pictures that errors are measured on, in pixels.
+    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size, default_value = "128x128")]
+    pub size: [u32; 2],
+    /// What to compare with: `exact` (float64, without samples) or `finest` (the device's own picture at its finest). Without
+    /// it: exact where that can be drawn, else finest.
+    #[arg(long, value_name = "REFERENCE", value_parser = standard)]
+    pub reference: Option<Standard>,
+    /// The ray traversal to tune, by its outport; may be left out where there is only one.
+    #[arg(long, value_name = "PROCESSOR.PORT", value_parser = address)]
+    pub port: Option<Address>,
+    /// Where pictures of the reference are kept, in place of the user's cache.
+    #[arg(long, value_name = "FOLDER")]
+    pub cache: Option<PathBuf>,
+}
+
 /// Arguments of `rayloom list`.
 #[derive(Debug, Args)]
 pub struct ListArgs {
@@ -267,6 +316,18 @@ fn vary(text: &str) -> Result<Vary, String> {
     text.parse()
 }
 
+/// A number, or one number divided by another.
+fn fraction(text: &str) -> Result<f64, String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+    let found = match text.split_once('/') {
+        Some((above, below)) => number(above).zip(number(below)).map(|(above, below)| above / below),
+        None => number(text),
+    };
+    found
+        .filter(|found| *found > 0.0 && *found <= 1.0)
+        .ok_or_else(|| "write a number above 0 and at most 1, such as 0.004 or 1/255".into())
+}
+
 fn reference(text: &str) -> Result<Reference, String> {
     Reference::from_id(text).ok_or_else(|| choices(text, &Reference::ALL.map(Reference::id)))
 }
@@ -320,6 +381,14 @@ mod tests {
         assert_eq!(value("a.b=[1, 2]"), Ok(Json::from(vec![1, 2])));
         for refused in ["a.b", "a=1", "a.b={\"x\":", "a.b=\"open"] {
             assert!(setting(refused).is_err(), "{refused}");
+        }
+    }
+
+    #[test]
+    fn errors_are_numbers_or_fractions() {
+        assert_eq!((fraction("0.004"), fraction("1/255")), (Ok(0.004), Ok(1.0 / 255.0)));
+        for refused in ["0", "-1", "2", "1/0", "nan", "a/b", ""] {
+            assert!(fraction(refused).is_err(), "{refused}");
         }
     }
 

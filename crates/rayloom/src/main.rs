@@ -19,6 +19,7 @@ mod render;
 mod shader;
 mod stats;
 mod target;
+mod tune;
 mod verify;
 
 use std::io::{ErrorKind, Write};
@@ -50,6 +51,7 @@ fn run(command: Option<&Command>) -> Result<String, Failure> {
         Command::Measure(args) => measure::run(args),
         Command::Explain(args) => explain::run(args),
         Command::Verify(args) => verify::run(args),
+        Command::Tune(args) => tune::run(args),
         Command::Check { network } => check::run(network),
         Command::List(args) => list::run(args),
         Command::Shader { network, processor, set } => shader::run(network, processor, set),

@@ -4,7 +4,7 @@ use std::ffi::OsStr;
 use std::path::Path;
 use std::sync::Arc;
 
-use rayloom_network::{LoadError, Network, Warning, closest};
+use rayloom_network::{LoadError, Network, Preset, Warning, closest};
 use rayloom_processors::snippet_library;
 
 use crate::args::Setting;
@@ -28,6 +28,14 @@ pub fn load(file: &Path) -> Result<(Network, Vec<Warning>), Failure> {
 /// # Errors
 /// As [`load`], or a property that does not exist or refuses its value.
 pub fn open(file: &Path, settings: &[Setting]) -> Result<Network, Failure> {
+    open_with(file, None, settings)
+}
+
+/// As [`open`], with a preset of the network applied before properties are set.
+///
+/// # Errors
+/// As [`open`], or a preset that does not exist or that the network refuses.
+pub fn open_with(file: &Path, preset: Option<&str>, settings: &[Setting]) -> Result<Network, Failure> {
     let (mut network, warnings) = load(file)?;
     for problem in snippet_library().1 {
         eprintln!("warning: {problem}");
@@ -35,12 +43,24 @@ pub fn open(file: &Path, settings: &[Setting]) -> Result<Network, Failure> {
     for warning in warnings {
         eprintln!("warning: {}: {warning}", file.display());
     }
+    if let Some(name) = preset {
+        let presets = network.presets();
+        let preset =
+            presets.iter().find(|preset| preset.name == name).ok_or_else(|| no_preset(file, name, &presets))?;
+        preset.apply(&mut network).map_err(|error| Failure::new(format!("preset `{name}`: {error}")))?;
+    }
     for Setting { property, value } in settings {
         network
             .set_from_json(&property.processor, &property.item, value)
             .map_err(|error| Failure::new(format!("--set {property}: {error}")))?;
     }
     Ok(network)
+}
+
+fn no_preset(file: &Path, name: &str, presets: &[Preset]) -> Failure {
+    let known: Vec<&str> = presets.iter().map(|preset| preset.name.as_str()).collect();
+    let known = if known.is_empty() { "it has none".into() } else { format!("it has {}", known.join(", ")) };
+    Failure::new(format!("{}: there is no preset `{name}`; {known}", file.display()))
 }
 
 /// The failure that there is no such file, with the networks beside it that it may stand for.

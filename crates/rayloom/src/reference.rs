@@ -38,7 +38,7 @@ pub fn render(network: &Network, args: &RenderArgs, reference: Reference) -> Res
 }
 
 /// The size of a picture where neither the command nor a canvas says.
-const DEFAULT_SIZE: [u32; 2] = [512, 512];
+pub const DEFAULT_SIZE: [u32; 2] = [512, 512];
 
 /// The pictures kept in a folder, or in the user's cache.
 pub fn cache(folder: Option<&Path>) -> Cache {

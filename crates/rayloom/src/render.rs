@@ -24,7 +24,7 @@ pub fn run(args: &RenderArgs) -> Result<String, Failure> {
     let start = Instant::now();
     let files = [Some(&args.output), args.stats.as_ref()];
     files.into_iter().flatten().try_for_each(|file| check_folder(file))?;
-    let network = network_file::open(&args.network, &args.set)?;
+    let network = network_file::open_with(&args.network, args.preset.as_deref(), &args.set)?;
     if let Some(reference) = args.reference {
         return reference::render(&network, args, reference);
     }

@@ -42,7 +42,7 @@ pub use panels::{Navigation, Pane};
 pub use probe::{Probe, Ray};
 pub use quality::Quality;
 pub use session::{Message, Mode, Session, Severity};
-pub use visualization::{Application, Change, Exposed, Group, Layout, Preset};
+pub use visualization::{Application, Change, Exposed, Group, Layout};
 pub use welcome::shipped_folder;
 
 /// Opens the window and runs until it is closed.

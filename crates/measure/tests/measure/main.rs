@@ -4,3 +4,4 @@ mod convergence;
 mod end_to_end;
 mod network;
 mod translation;
+mod tuning;

@@ -1,4 +1,4 @@
-//! `measure`, and `render --reference`.
+//! `measure`, `tune`, and `render --reference`.
 
 use std::fs;
 
@@ -64,4 +64,21 @@ fn a_measurement_says_what_to_choose_and_where_the_files_are() {
     assert!(unknown.contains("There is no ladder `speed`"), "{unknown}");
     let usage = rayloom(["measure", &network, "--reference", "perfect", "-o", &output]);
     assert!(usage.code == 2 && usage.stderr.contains("choose exact or same-samples or finest"), "{}", usage.stderr);
+}
+
+#[test]
+fn tuning_writes_a_preset_that_can_be_rendered() {
+    let (_folder, within) = network();
+    let (network, cache, output) = (within("network.json"), within("cache"), within("tuned.json"));
+    let goal = ["--max-error", "1/100", "--views", "2", "--unseen", "1", "--size", "20x16", "--cache", &cache];
+    let printed = rayloom(["tune", &network].into_iter().chain(goal)).output();
+    assert!(printed.contains("\"traversal.sampling_rate\": ") && printed.contains("within 0.01"), "{printed}");
+    let named = ["--name", "Good", "-o", &output];
+    let text = rayloom(["tune", &network].into_iter().chain(goal).chain(named)).output();
+    assert!(text.contains("tuned.json: preset `Good`"), "{text}");
+    let picture = within("picture.png");
+    rayloom(["render", &output, "--preset", "Good", "-o", &picture]).output();
+    let unknown = rayloom(["render", &output, "--preset", "Bad", "-o", &picture]).error();
+    assert!(unknown.contains("there is no preset `Bad`; it has Good"), "{unknown}");
+    assert_eq!(rayloom(["tune", &network]).code, 2);
 }

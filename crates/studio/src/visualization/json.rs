@@ -1,9 +1,9 @@
 //! The form of an application in the network file.
 
-use rayloom_network::Address;
+use rayloom_network::{Address, Preset};
 use serde_json::{Map, Value as Json, json};
 
-use super::{Application, Exposed, Group, Layout, Preset};
+use super::{Application, Exposed, Group, Layout};
 
 /// Layouts by their names in the file.
 const LAYOUTS: [(Layout, &str); 2] = [(Layout::Grid, "grid"), (Layout::FirstLarge, "first_large")];
@@ -132,22 +132,7 @@ impl Reader<'_> {
     }
 
     fn preset(&mut self, path: &str, json: &Json) -> Option<Preset> {
-        let object = self.object(path, json, &["name", "values"])?;
-        let Some(name) = self.text(&format!("{path}.name"), object.get("name")) else {
-            self.problems.push(format!("{path}: no `name`; give the preset one"));
-            return None;
-        };
-        let values = self.object_of_values(&format!("{path}.values"), object.get("values"));
-        Some(Preset { name, values })
-    }
-
-    fn object_of_values(&mut self, path: &str, json: Option<&Json>) -> std::collections::BTreeMap<Address, Json> {
-        let Some(json) = json else { return Default::default() };
-        let Some(object) = json.as_object() else {
-            self.complain(path, json, "an object with a value for each `processor.property`");
-            return Default::default();
-        };
-        object.iter().filter_map(|(text, value)| Some((self.address(path, text)?, value.clone()))).collect()
+        Preset::from_json(json).map_err(|problem| self.problems.push(format!("{path}: {problem}"))).ok()
     }
 }
 
@@ -166,7 +151,7 @@ pub(super) fn write(application: &Application) -> Json {
         json.insert("groups".into(), application.groups.iter().map(write_group).collect());
     }
     if !application.presets.is_empty() {
-        json.insert("presets".into(), application.presets.iter().map(write_preset).collect());
+        json.insert("presets".into(), application.presets.iter().map(Preset::to_json).collect());
     }
     if application.locked {
         json.insert("locked".into(), Json::Bool(true));
@@ -186,11 +171,6 @@ fn write_group(group: &Group) -> Json {
         json
     };
     json!({"title": group.title, "properties": group.properties.iter().map(exposed).collect::<Vec<_>>()})
-}
-
-fn write_preset(preset: &Preset) -> Json {
-    let values = preset.values.iter().map(|(address, value)| (address.to_string(), value.clone()));
-    json!({"name": preset.name, "values": Json::Object(values.collect())})
 }
 
 #[cfg(test)]

@@ -25,11 +25,10 @@ mod preset;
 mod show;
 
 pub use change::{Change, Place, follow_rename};
+pub use preset::refused;
 pub use show::Visualization;
 
-use std::collections::BTreeMap;
-
-use rayloom_network::{Address, Network, PropertyDecl, PropertyKind, closest};
+use rayloom_network::{Address, Network, Preset, PropertyDecl, PropertyKind, closest};
 use serde_json::Value as Json;
 
 /// What visualization mode shows.
@@ -77,15 +76,6 @@ pub struct Exposed {
     pub range: Option<[f64; 2]>,
 }
 
-/// A set of values.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Preset {
-    /// What it is called.
-    pub name: String,
-    /// JSON for each property that it sets.
-    pub values: BTreeMap<Address, Json>,
-}
-
 impl Application {
     /// What a network's author wants shown, and what is wrong with it, a sentence each with the place in the file. What is
     /// wrong is left out; the rest counts.
@@ -118,7 +108,7 @@ impl Application {
             }
         }
         for preset in &self.presets {
-            let refused = preset.refused(network).into_iter();
+            let refused = refused(preset, network).into_iter();
             problems
                 .extend(refused.map(|(_, problem)| format!("visualization.presets (`{}`): {problem}", preset.name)));
         }

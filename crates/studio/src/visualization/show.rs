@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use egui::{Rect, UiBuilder, Vec2};
-use rayloom_network::{Address, PropertyDecl};
+use rayloom_network::{Address, Preset, PropertyDecl};
 use serde_json::Value as Json;
 
-use super::{Application, Layout, Preset};
+use super::{Application, Layout};
 use crate::panels::canvas::CanvasPanel;
 use crate::panels::properties::PropertiesPanel;
 use crate::session::Session;

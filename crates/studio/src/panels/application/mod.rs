@@ -11,7 +11,7 @@ use rayloom_network::{Address, Network};
 
 use crate::session::{Mode, Session};
 use crate::theme;
-use crate::visualization::{Application, Change};
+use crate::visualization::{Application, Change, refused};
 
 /// What the panel remembers.
 #[derive(Default)]
@@ -59,7 +59,7 @@ impl ApplicationPanel {
             let network = session.network();
             (self.application, _) = Application::of(network);
             self.unreadable = Application::unreadable(network);
-            self.refused = self.application.presets.iter().map(|preset| preset.refused(network)).collect();
+            self.refused = self.application.presets.iter().map(|preset| refused(preset, network)).collect();
         }
     }
 

@@ -1,0 +1,195 @@
+//! Errors and times of settings, view by view.
+
+use std::collections::BTreeMap;
+use std::ops::{ControlFlow, Range};
+
+use rayloom_gpu::Gpu;
+use rayloom_network::{Camera, Network};
+use rayloom_reference::Cache;
+use rayloom_reference::metrics::Pixel;
+
+use super::views::view;
+use super::{Goal, Progress};
+use crate::bench::Bench;
+use crate::chain::Chain;
+use crate::yardstick::{Standard, choose, finest};
+use crate::{Errors, MeasureError, Refusal, Setting, Summary};
+
+/// Sampling rate of the finest picture, for networks that the float64 reference cannot draw.
+pub(super) const FINEST_RATE: f64 = 64.0;
+
+/// Share of a picture that must show something for it to count as a view.
+const LEAST_SHOWN: f64 = 0.01;
+/// Views that may be left out for showing nothing: a scene may be empty from everywhere.
+const MOST_EMPTY: usize = 16;
+
+/// How far a picture is from its reference: the larger of the root mean square error and the error that 99 % of the pixels do
+/// not exceed. Of every pixel the largest error of its four premultiplied channels counts, and only pixels in which the
+/// picture or its reference shows anything do: how much of a picture is background says nothing about its accuracy.
+///
+/// # Errors
+/// Pictures that differ in size.
+pub fn picture_error<A: Pixel, B: Pixel>(picture: &[A], reference: &[B]) -> Result<f64, MeasureError> {
+    let shows = |pixel: [f64; 4]| pixel.iter().any(|&channel| channel != 0.0);
+    let pairs = picture.iter().zip(reference).map(|(a, b)| (a.widen(), b.widen()));
+    let (shown, expected): (Vec<_>, Vec<_>) = pairs.filter(|(a, b)| shows(*a) || shows(*b)).unzip();
+    match (shown.is_empty(), picture.len() == reference.len()) {
+        (true, true) => Ok(0.0),
+        (_, true) => Errors::of(&shown, &expected).map(|(errors, _)| errors.rmse.max(errors.p99)),
+        _ => Errors::of(picture, reference).map(|(errors, _)| errors.rmse),
+    }
+}
+
+/// A network whose settings are judged.
+pub(super) struct Judge<'a> {
+    bench: Bench,
+    goal: &'a Goal,
+    cache: &'a Cache,
+    progress: Progress<'a>,
+    camera: Camera,
+    pub standard: Standard,
+    /// Why the exact picture is not what is compared with, if it is not.
+    pub refusal: Option<Refusal>,
+    finest: Setting,
+    /// The views in use so far, and what they should show.
+    references: Vec<(Camera, Vec<[f64; 4]>)>,
+    /// How many views were looked at to find them.
+    looked: usize,
+    /// Errors by the values of a setting and the index of the view.
+    known: BTreeMap<(String, usize), f64>,
+}
+
+impl<'a> Judge<'a> {
+    pub fn new(
+        network: &Network,
+        chain: Chain,
+        goal: &'a Goal,
+        gpu: Gpu,
+        cache: &'a Cache,
+        progress: Progress<'a>,
+    ) -> Result<Self, MeasureError> {
+        let finest = finest(network, &chain, FINEST_RATE);
+        let mut bench = Bench::new(network, chain, gpu, goal.size)?;
+        let camera = bench.camera()?;
+        let (standard, refusal) = choose(goal.standard, &mut bench)?;
+        if standard == Standard::SameSamples {
+            return Err(MeasureError::Plan(
+                "Tuning needs a reference that every setting is compared with: choose exact or finest.".into(),
+            ));
+        }
+        let (references, known) = (Vec::new(), BTreeMap::new());
+        Ok(Self { bench, goal, cache, progress, camera, standard, refusal, finest, references, looked: 0, known })
+    }
+
+    /// The errors of a setting in some views, up to the first that is not `enough`; `None` if it cannot be rendered.
+    pub fn errors(
+        &mut self,
+        setting: &Setting,
+        views: Range<usize>,
+        enough: f64,
+    ) -> Result<Option<Vec<f64>>, MeasureError> {
+        let key = format!("{:?}", setting.assignments);
+        let mut errors = Vec::new();
+        for index in views {
+            let error = match self.known.get(&(key.clone(), index)) {
+                Some(&error) => error,
+                None => match self.error(setting, index) {
+                    Err(MeasureError::Evaluation(_) | MeasureError::Edit(_)) => return Ok(None),
+                    found => found?,
+                },
+            };
+            self.known.insert((key.clone(), index), error);
+            errors.push(error);
+            if error > enough {
+                break;
+            }
+        }
+        Ok(Some(errors))
+    }
+
+    fn error(&mut self, setting: &Setting, index: usize) -> Result<f64, MeasureError> {
+        while self.references.len() <= index {
+            let camera = view(&self.camera, self.looked);
+            let reference = self.reference(&camera)?;
+            self.looked += 1;
+            // A view that shows next to nothing says nothing about others.
+            let shown = reference.iter().filter(|pixel| pixel[3] > 0.0).count() as f64 / reference.len() as f64;
+            if shown >= LEAST_SHOWN || self.looked > index + MOST_EMPTY {
+                self.references.push((camera, reference));
+            }
+        }
+        self.tell(&setting.name, 0.0)?;
+        let (camera, reference) = &self.references[index];
+        self.bench.set(setting, camera)?;
+        picture_error(&self.bench.picture()?, reference)
+    }
+
+    /// What a view should show.
+    fn reference(&mut self, camera: &Camera) -> Result<Vec<[f64; 4]>, MeasureError> {
+        let what = format!("drawing what view {} should show", self.references.len() + 1);
+        self.tell(&what, 0.0)?;
+        match self.standard {
+            Standard::Finest => {
+                self.bench.set(&self.finest, camera)?;
+                Ok(self.bench.picture()?.into_iter().map(|pixel| pixel.map(f64::from)).collect())
+            }
+            Standard::Exact | Standard::SameSamples => {
+                self.bench.set(&Setting::saved(), camera)?;
+                let subject = self.bench.subject()?;
+                let progress = |share| (self.progress)(&what, share);
+                let reference = rayloom_reference::Reference::Exact;
+                Ok(self.cache.render(reference, &subject.scene(), None, &progress)?.image.color)
+            }
+        }
+    }
+
+    /// Milliseconds a picture of `size` takes with each setting, taking turns over two views and some rounds; `None` where the
+    /// device does not tell.
+    pub fn times(
+        &mut self,
+        settings: &[&Setting],
+        size: [u32; 2],
+        rounds: usize,
+    ) -> Result<Vec<Option<Summary>>, MeasureError> {
+        self.bench.size = size;
+        let mut timings = vec![Vec::new(); settings.len()];
+        for round in 0..rounds {
+            self.tell("timing", round as f64 / rounds as f64)?;
+            for index in 0..self.goal.views.min(2) {
+                for (setting, timings) in settings.iter().zip(&mut timings) {
+                    self.bench.set(setting, &view(&self.camera, index))?;
+                    timings.extend(self.bench.time()?);
+                }
+            }
+        }
+        self.bench.size = self.goal.size;
+        Ok(timings.iter().map(|timings| Summary::of(timings)).collect())
+    }
+
+    /// Says what is being done, and stops where that is asked for.
+    fn tell(&self, what: &str, share: f64) -> Result<(), MeasureError> {
+        match (self.progress)(what, share) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(MeasureError::Render(rayloom_reference::RenderError::Cancelled)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn background_does_not_count() {
+        let mut reference = vec![[0.5, 0.5, 0.5, 1.0]; 50];
+        let mut picture: Vec<[f32; 4]> = vec![[0.5, 0.5, 0.5, 1.0]; 50];
+        picture[0][0] = 0.7;
+        let all = picture_error(&picture, &reference).expect("pictures of one size");
+        assert!((all - 0.2).abs() < 1e-6, "one of fifty pixels is more than 1 %: {all}");
+        reference.extend(vec![[0.0; 4]; 950]);
+        picture.extend(vec![[0.0; 4]; 950]);
+        assert_eq!(picture_error(&picture, &reference).expect("pictures of one size"), all);
+        assert_eq!(picture_error(&picture[50..], &reference[50..]).expect("pictures of one size"), 0.0);
+        assert!(picture_error(&picture[1..], &reference).is_err());
+    }
+}

@@ -1,0 +1,270 @@
+//! The way to a setting: the lowest sampling rate of each integrator, the cheapest of those, a look at views not used so far.
+
+use super::judge::{FINEST_RATE, Judge};
+use super::knobs::{Candidate, Knobs, ONE, RATES};
+use super::spread;
+use super::{Goal, Tried};
+use crate::{MeasureError, Setting, Standard};
+
+/// Timings of each setting and view where several are compared.
+const ROUNDS: usize = 2;
+/// A saving must cost less than this share of the time: less is noise.
+const WORTHWHILE: f64 = 0.95;
+/// A doubled sampling rate that leaves more than this share of the error has met another error, which it cannot lower.
+const FLOOR: f64 = 0.85;
+/// An integrator may take at most this many rungs more than another that has met the target: its samples are not that cheap.
+const BEYOND: usize = 4;
+/// How often views that a setting did not meet the target on are added to those it is chosen by.
+const ATTEMPTS: usize = 4;
+
+/// What a setting was found to be.
+pub(super) struct Found {
+    pub candidate: Candidate,
+    /// Errors on the views it was chosen by.
+    pub seen: Vec<f64>,
+    /// Errors on views that were not used to choose it.
+    pub unseen: Vec<f64>,
+    pub met: bool,
+}
+
+pub(super) struct Search<'a> {
+    pub judge: Judge<'a>,
+    pub knobs: Knobs<'a>,
+    pub goal: &'a Goal,
+    /// Views that settings are chosen by.
+    pub views: usize,
+    pub tried: Vec<Tried>,
+}
+
+impl Search<'_> {
+    /// The cheapest setting that keeps all errors within `allowed`, or the most accurate.
+    pub fn cheapest(&mut self, allowed: f64) -> Result<Found, MeasureError> {
+        let start = self.knobs.start(allowed);
+        let mut fitting = self.fitting(&start, allowed)?;
+        if let (true, Some(finer)) = (fitting.is_empty(), self.knobs.finer(&start)) {
+            fitting = self.fitting(&finer, allowed)?;
+        }
+        let Some(mut candidate) = self.fastest(fitting)? else { return self.most_accurate(Some(allowed)) };
+        candidate = self.saved_on(candidate, allowed)?;
+        for _ in 0..ATTEMPTS {
+            let found = self.look(candidate.clone(), Some(allowed))?;
+            if found.met {
+                return Ok(found);
+            }
+            // What was unseen takes part in choosing from here on.
+            self.views += self.goal.unseen;
+            loop {
+                if candidate.rung + 1 >= self.rates() {
+                    return self.most_accurate(Some(allowed));
+                }
+                candidate = self.knobs.at(&candidate, candidate.rung + 1);
+                if self.meets(&candidate, allowed)? {
+                    break;
+                }
+            }
+        }
+        self.most_accurate(Some(allowed))
+    }
+
+    /// The most accurate setting whose pictures take no longer than `budget` milliseconds; `None` where the device tells no times.
+    /// The fastest, if all of them take longer.
+    pub fn within(&mut self, budget: f64) -> Result<Option<Found>, MeasureError> {
+        let mut best: Option<(f64, Candidate)> = None;
+        let start = self.knobs.start(self.goal.max_error.unwrap_or(TIDY));
+        for integrator in self.knobs.integrators(&start) {
+            let mut timed = true;
+            let too_slow = lowest(self.rates(), |rung| {
+                let setting = self.knobs.setting(&self.knobs.at(&integrator, rung));
+                if self.judge.errors(&setting, 0..1, f64::INFINITY)?.is_none() {
+                    return Ok(Answer::Stop);
+                }
+                let time = self.judge.times(&[&setting], self.goal.picture, 2)?.remove(0);
+                timed &= time.is_some();
+                Ok(if time.is_none_or(|time| time.median > budget) { Answer::Yes } else { Answer::No })
+            })?;
+            if !timed {
+                return Ok(None);
+            }
+            let candidate = self.knobs.at(&integrator, too_slow.unwrap_or(self.rates()).saturating_sub(1));
+            if let Some(errors) = self.score(&candidate, f64::INFINITY)? {
+                let worst = largest(&errors);
+                if best.as_ref().is_none_or(|(least, _)| worst < *least) {
+                    best = Some((worst, candidate));
+                }
+            }
+        }
+        let Some((_, candidate)) = best else { return self.most_accurate(self.goal.max_error).map(Some) };
+        self.look(candidate, self.goal.max_error).map(Some)
+    }
+
+    /// The errors of a setting on the views it was chosen by, and on new ones.
+    fn look(&mut self, candidate: Candidate, allowed: Option<f64>) -> Result<Found, MeasureError> {
+        let setting = self.knobs.setting(&candidate);
+        let (views, unseen) = (self.views, self.goal.unseen.max(1));
+        let seen = self.judge.errors(&setting, 0..views, f64::INFINITY)?.unwrap_or_default();
+        let unseen = self.judge.errors(&setting, views..views + unseen, f64::INFINITY)?.unwrap_or_default();
+        let met = allowed.is_some_and(|allowed| seen.iter().chain(&unseen).all(|&error| error <= allowed));
+        Ok(Found { candidate, met: met && !unseen.is_empty(), seen, unseen })
+    }
+
+    /// The most accurate of all that were tried, which may meet the target without the room that others are asked for.
+    fn most_accurate(&mut self, allowed: Option<f64>) -> Result<Found, MeasureError> {
+        let best = self.tried.iter().min_by(|a, b| a.error.total_cmp(&b.error)).map(|tried| tried.candidate.clone());
+        let candidate = best.ok_or_else(|| {
+            MeasureError::AllRefused("Not even one sample a voxel with a transfer function works.".into())
+        })?;
+        self.look(candidate, allowed)
+    }
+
+    /// Sampling rates that make sense: well below that of the finest picture where that is what is compared with.
+    fn rates(&self) -> usize {
+        match self.judge.standard {
+            Standard::Finest => RATES.iter().filter(|rate| **rate <= FINEST_RATE / 4.0).count(),
+            _ => RATES.len(),
+        }
+    }
+
+    /// For each integrator the lowest sampling rate that meets the target, if any does.
+    fn fitting(&mut self, start: &Candidate, allowed: f64) -> Result<Vec<Candidate>, MeasureError> {
+        let mut found: Vec<Candidate> = Vec::new();
+        for integrator in self.knobs.integrators(start) {
+            let least = found.iter().map(|candidate| candidate.rung + BEYOND + 1).min();
+            let rungs = self.rates().min(least.unwrap_or(usize::MAX));
+            // The error of the saved view, and how often doubling the rate has left it about the same.
+            let mut floor = (f64::INFINITY, 0);
+            let rung = lowest(rungs, |rung| {
+                let candidate = self.knobs.at(&integrator, rung);
+                let Some(errors) = self.score(&candidate, allowed)? else { return Ok(Answer::Stop) };
+                if self.meets(&candidate, allowed)? {
+                    return Ok(Answer::Yes);
+                }
+                floor = (errors[0], if errors[0] > FLOOR * floor.0 { floor.1 + 1 } else { 0 });
+                Ok(if errors[0] > allowed && floor.1 >= 2 { Answer::Stop } else { Answer::No })
+            })?;
+            found.extend(rung.map(|rung| self.knobs.at(&integrator, rung)));
+        }
+        Ok(found)
+    }
+
+    /// The fastest of some candidates, by samples taken where times are not known: the lowest sampling rate.
+    fn fastest(&mut self, candidates: Vec<Candidate>) -> Result<Option<Candidate>, MeasureError> {
+        let settings: Vec<Setting> = candidates.iter().map(|candidate| self.knobs.setting(candidate)).collect();
+        if settings.len() < 2 {
+            return Ok(candidates.into_iter().next());
+        }
+        let times = self.judge.times(&settings.iter().collect::<Vec<_>>(), self.goal.size, ROUNDS)?;
+        let cost = |i: usize| times[i].map_or(RATES[candidates[i].rung], |time| time.median);
+        let best = (0..candidates.len()).min_by(|&a, &b| cost(a).total_cmp(&cost(b)));
+        Ok(best.map(|best| candidates[best].clone()))
+    }
+
+    /// The candidate with whatever makes it clearly faster and leaves it within the target.
+    fn saved_on(&mut self, candidate: Candidate, allowed: f64) -> Result<Candidate, MeasureError> {
+        let mut best = candidate;
+        for saving in self.knobs.savings() {
+            let saving = self.knobs.changed(&best, saving);
+            if saving == best || !self.meets(&saving, allowed)? {
+                continue;
+            }
+            let pair = [self.knobs.setting(&best), self.knobs.setting(&saving)];
+            let times = self.judge.times(&[&pair[0], &pair[1]], self.goal.size, ROUNDS)?;
+            if let [Some(now), Some(then)] = times[..]
+                && then.median < WORTHWHILE * now.median
+            {
+                best = saving;
+            }
+        }
+        Ok(best)
+    }
+
+    /// The errors of a candidate on the views that settings are chosen by, up to the first that is not `enough`; `None` if it
+    /// cannot be rendered.
+    fn score(&mut self, candidate: &Candidate, enough: f64) -> Result<Option<Vec<f64>>, MeasureError> {
+        let setting = self.knobs.setting(candidate);
+        let Some(errors) = self.judge.errors(&setting, 0..self.views, enough)? else { return Ok(None) };
+        self.tried.retain(|tried| tried.candidate != *candidate);
+        self.tried.push(Tried { candidate: candidate.clone(), setting, error: errors[0] });
+        Ok(Some(errors))
+    }
+
+    /// Whether unseen views can be trusted to stay within the target, too. Where it is close, more views decide.
+    fn meets(&mut self, candidate: &Candidate, allowed: f64) -> Result<bool, MeasureError> {
+        let Some(errors) = self.score(candidate, allowed)? else { return Ok(false) };
+        if spread::limit(&errors) <= allowed || largest(&errors) > allowed {
+            return Ok(largest(&errors) <= allowed);
+        }
+        let most = self.goal.views + self.goal.views / 2;
+        if self.views >= most {
+            return Ok(false);
+        }
+        self.views = most;
+        self.meets(candidate, allowed)
+    }
+}
+
+/// What early termination goes by where only time counts: one code of an 8-bit picture.
+const TIDY: f64 = 1.0 / 255.0;
+
+fn largest(errors: &[f64]) -> f64 {
+    errors.iter().copied().fold(0.0, f64::max)
+}
+
+/// Whether a rung is high enough.
+enum Answer {
+    Yes,
+    No,
+    /// No, and no higher one is.
+    Stop,
+}
+
+/// The lowest of `rungs` rungs that is high enough, if one is: all above one that is are taken to be so, too. Begins at one
+/// sample a voxel, goes by factors of two, and then tries the rung between.
+fn lowest(
+    rungs: usize,
+    mut holds: impl FnMut(usize) -> Result<Answer, MeasureError>,
+) -> Result<Option<usize>, MeasureError> {
+    let mut rung = ONE.min(rungs.saturating_sub(1));
+    match holds(rung)? {
+        Answer::Yes => {
+            while rung >= 2 && matches!(holds(rung - 2)?, Answer::Yes) {
+                rung -= 2;
+            }
+        }
+        Answer::Stop => return Ok(None),
+        Answer::No => loop {
+            rung += 2;
+            if rung >= rungs {
+                // The last rung of all, if the steps have left it out.
+                let last = rung - 1;
+                return Ok((last < rungs && matches!(holds(last)?, Answer::Yes)).then_some(last));
+            }
+            match holds(rung)? {
+                Answer::Yes => break,
+                Answer::No => {}
+                Answer::Stop => return Ok(None),
+            }
+        },
+    }
+    let between = rung.checked_sub(1).filter(|_| rung > 0);
+    Ok(match between {
+        Some(between) if matches!(holds(between)?, Answer::Yes) => Some(between),
+        _ => Some(rung),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_lowest_rung_is_found() {
+        for (rungs, threshold) in (1..20).flat_map(|rungs| (0..=rungs).map(move |threshold| (rungs, threshold))) {
+            let found = lowest(rungs, |rung| {
+                assert!(rung < rungs);
+                Ok(if rung >= threshold { Answer::Yes } else { Answer::No })
+            });
+            assert_eq!(found.expect("no error"), (threshold < rungs).then_some(threshold), "{rungs} {threshold}");
+        }
+        assert!(lowest(9, |_| Ok(Answer::Stop)).expect("no error").is_none());
+    }
+}
