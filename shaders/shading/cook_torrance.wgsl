@@ -15,7 +15,8 @@ const PI = 3.14159265;
 fn shade(medium: vec4f, surface: Surface) -> vec4f {
     let half_way = direction_of(surface.light + surface.view);
     let nl = max(dot(surface.normal, surface.light), 0.0);
-    let nv = max(dot(surface.normal, surface.view), 1e-3);
+    // Normals of media turn to the light, not to the viewer.
+    let nv = max(abs(dot(surface.normal, surface.view)), 1e-3);
     let nh = max(dot(surface.normal, half_way), 1e-3);
     let vh = max(dot(surface.view, half_way), 1e-3);
     let m2 = params.roughness * params.roughness;

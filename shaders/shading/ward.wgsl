@@ -20,7 +20,8 @@ fn shade(medium: vec4f, surface: Surface) -> vec4f {
     let bitangent = cross(n, tangent);
     let half_way = direction_of(surface.light + surface.view);
     let nl = max(dot(n, surface.light), 0.0);
-    let nv = max(dot(n, surface.view), 1e-3);
+    // Normals of media turn to the light, not to the viewer.
+    let nv = max(abs(dot(n, surface.view)), 1e-3);
     let nh = max(dot(n, half_way), 1e-3);
     let x = dot(half_way, tangent) / params.along;
     let y = dot(half_way, bitangent) / params.across;

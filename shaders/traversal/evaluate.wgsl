@@ -19,7 +19,10 @@ fn world_gradient(p: vec3f, voxel: vec4f) -> vec3f {
 #if shading
 
 /// Shades a medium at `p`. Where the gradient vanishes there is no surface to light, and the unlit medium shows.
-fn lit(medium: vec4f, ray: Ray, p: vec3f, voxel: vec4f) -> vec4f {
+/// Two-sided lighting turns normals to the side of `facing`: the viewer for surfaces, whose front is what is seen. A medium has
+/// no front, and it turns to the light: turning to the viewer would jump where a normal is seen edge-on, inside of what the ray
+/// integrates, and cost an order of convergence.
+fn lit(medium: vec4f, ray: Ray, p: vec3f, voxel: vec4f, facing: vec3f) -> vec4f {
     var surface: Surface;
     surface.view = ray.view;
     surface.light = frame.light_direction;
@@ -28,7 +31,7 @@ fn lit(medium: vec4f, ray: Ray, p: vec3f, voxel: vec4f) -> vec4f {
     let gradient = world_gradient(p, voxel);
     let magnitude = length(gradient);
     surface.normal = -gradient / max(magnitude, 1e-20);
-    if frame.two_sided > 0.5 && dot(surface.normal, ray.view) < 0.0 {
+    if frame.two_sided > 0.5 && dot(surface.normal, facing) < 0.0 {
         surface.normal = -surface.normal;
     }
     let weight = magnitude / (magnitude + frame.gradient_fade);
@@ -54,7 +57,7 @@ fn medium_at(ray: Ray, along: f32) -> vec4f {
 #endif
     let medium = classify(s);
 #if shading
-    return lit(medium, ray, s.position, s.voxel);
+    return lit(medium, ray, s.position, s.voxel, frame.light_direction);
 #else
     return medium;
 #endif
@@ -77,7 +80,7 @@ fn classify_value(value: f32) -> vec4f {
 fn surface_at(ray: Ray, along: f32, color: vec3f) -> vec4f {
 #if shading
     let p = position_along(ray, along);
-    return lit(vec4f(color, 1.0), ray, p, voxel_at(p));
+    return lit(vec4f(color, 1.0), ray, p, voxel_at(p), ray.view);
 #else
     return vec4f(color, 1.0);
 #endif

@@ -140,7 +140,7 @@ fn traverse(@builtin(global_invocation_id) id: vec3u) {
         if !visible {
             break;
         }
-        s.medium = lit(s.medium, ray, s.position, s.voxel);
+        s.medium = lit(s.medium, ray, s.position, s.voxel, frame.light_direction);
 #else
 #if skipping
         index = skip_empty(ray, index);
@@ -183,7 +183,7 @@ fn traverse(@builtin(global_invocation_id) id: vec3u) {
 #if medium
 #if shading
         if s.medium.w > 0.0 {
-            s.medium = lit(s.medium, ray, s.position, s.voxel);
+            s.medium = lit(s.medium, ray, s.position, s.voxel, frame.light_direction);
         }
 #endif
 #endif

@@ -3,7 +3,7 @@
 use crate::camera::View;
 use crate::field::Field;
 use crate::ray::{AxisBox, Ray, Segment};
-use crate::scene::{Scene, SceneError};
+use crate::scene::{Method, Scene, SceneError};
 use glam::{DAffine3, DMat3, DVec3};
 
 /// A point of an isosurface.
@@ -88,7 +88,9 @@ impl<'a> Prepared<'a> {
         if weight == 0.0 {
             return color;
         }
-        let lit = shading.light(color, self.normal(gradient), self.towards_light, -ray.direction.normalize());
+        let viewer = -ray.direction.normalize();
+        let facing = if matches!(self.scene.method, Method::Isosurface { .. }) { viewer } else { self.towards_light };
+        let lit = shading.light(color, self.normal(gradient), facing, self.towards_light, viewer);
         [0, 1, 2].map(|i| color[i] + weight * (lit[i] - color[i]))
     }
 

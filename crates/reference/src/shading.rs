@@ -33,7 +33,9 @@ pub struct BlinnPhong {
     pub light_space: LightSpace,
     /// Colour of the light; multiplies the diffuse and the specular term.
     pub light_color: [f64; 3],
-    /// Whether normals that point away from the viewer are turned around.
+    /// Whether normals are turned around that point away: those of surfaces from the viewer, who sees the front; those of media,
+    /// which have none, from the light. Turned to the viewer they would jump, inside of what a ray integrates, where they are
+    /// seen edge-on.
     pub two_sided: bool,
     /// Gradient magnitude in world space, in shares of the value range per mean voxel spacing (the edge of a cube as large as
     /// a voxel), at which the colour is half lit; weaker gradients, whose direction is mostly noise, fade to the unlit colour.
@@ -68,9 +70,17 @@ impl BlinnPhong {
         direction.normalize_or_zero()
     }
 
-    /// The lit straight colour of material of colour `color` with unit `normal`, all vectors unit and in world space.
-    pub fn light(&self, color: [f64; 3], normal: DVec3, towards_light: DVec3, towards_viewer: DVec3) -> [f64; 3] {
-        let flip = self.two_sided && normal.dot(towards_viewer) < 0.0;
+    /// The lit straight colour of material of colour `color` with unit `normal`, which two-sided lighting turns to the side of
+    /// `facing`; all vectors unit and in world space.
+    pub fn light(
+        &self,
+        color: [f64; 3],
+        normal: DVec3,
+        facing: DVec3,
+        towards_light: DVec3,
+        towards_viewer: DVec3,
+    ) -> [f64; 3] {
+        let flip = self.two_sided && normal.dot(facing) < 0.0;
         let normal = if flip { -normal } else { normal };
         let halfway = (towards_light + towards_viewer).normalize_or_zero();
         let cosine = normal.dot(towards_light).max(0.0);
