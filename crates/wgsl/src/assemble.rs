@@ -8,7 +8,8 @@ use crate::choice::{Choice, Features};
 use crate::declaration::{Declaration, Parameter};
 use crate::diagnostic::{Diagnostic, Origin, SourceMap};
 use crate::lexer::{line_and_column, module_scope_names};
-use crate::library::Library;
+use crate::library::{Library, SourceKind};
+use crate::limits;
 use crate::rename::Renaming;
 use crate::slot::{Slot, contract, signature};
 
@@ -42,7 +43,16 @@ pub fn assemble(library: &Library, choice: &Choice) -> Result<Assembled, Vec<Dia
     })?;
     let places = places(library, choice, &features);
     let skeleton = library.source(TRAVERSAL).map_or("", |source| &source.text);
-    let problems: Vec<_> = places.iter().flat_map(|place| place.breaches(skeleton)).collect();
+    let problems: Vec<_> = places
+        .iter()
+        .flat_map(|place| {
+            let others = places.iter().filter(|other| other.prefix != place.prefix);
+            let foreign: Vec<_> = others.flat_map(|other| other.private_names(skeleton)).collect();
+            let mut problems = place.breaches(skeleton);
+            problems.extend(limits::breaches(&place.path, &place.text, &foreign));
+            problems
+        })
+        .collect();
     if !problems.is_empty() {
         return Err(problems);
     }
@@ -110,6 +120,21 @@ fn places(library: &Library, choice: &Choice, features: &Features) -> Vec<Place>
 impl Place {
     fn field(&self, parameter: &Parameter) -> String {
         format!("{}_{}", self.prefix, parameter.name)
+    }
+
+    /// The names that the skeleton calls as they are; those of compositing get the prefix of their output.
+    fn kept_names(&self, skeleton: &str) -> Vec<String> {
+        match self.output {
+            Some(_) => Vec::new(),
+            None => contract(skeleton, self.slot).into_iter().map(|prototype| prototype.name).collect(),
+        }
+    }
+
+    /// The names at module scope that are private to the snippet, as they are in the shader.
+    fn private_names(&self, skeleton: &str) -> Vec<String> {
+        let kept = self.kept_names(skeleton);
+        let names = module_scope_names(&self.text).into_iter().filter(|(name, _)| !kept.iter().any(|k| k == name));
+        names.map(|(name, _)| format!("{}_{name}", self.prefix)).collect()
     }
 
     /// What the snippet lacks of its slot's contract, and parameters it reads without declaring them.
@@ -200,6 +225,11 @@ impl Writer<'_> {
         if !self.done.insert(source.path.clone()) {
             return Ok(());
         }
+        if source.kind != SourceKind::BuiltIn
+            && let Some(problem) = limits::breaches(&source.path, &source.text, &[]).into_iter().next()
+        {
+            return Err(problem);
+        }
         self.open.push(source.path.clone());
         let result = self.lines(&source.path, lines(&source.text, &Renaming::default()), None);
         self.open.pop();
@@ -207,13 +237,13 @@ impl Writer<'_> {
     }
 
     fn snippet(&mut self, place: &Place) -> Result<(), Diagnostic> {
-        let keep: Vec<_> = match place.output {
-            Some(_) => Vec::new(),
-            None => contract(self.skeleton, place.slot).into_iter().map(|prototype| prototype.name).collect(),
-        };
+        let keep = place.kept_names(self.skeleton);
         let parameters: Vec<_> = place.declaration.parameters.iter().map(|parameter| parameter.name.clone()).collect();
         let renaming = Renaming::scoped(&place.text, &place.prefix, &keep, &parameters);
-        self.lines(&place.path, lines(&place.text, &renaming), place.output)
+        self.open.push(place.path.clone());
+        let result = self.lines(&place.path, lines(&place.text, &renaming), place.output);
+        self.open.pop();
+        result
     }
 
     /// Writes lines, obeying directives.
@@ -248,6 +278,9 @@ impl Writer<'_> {
                 "endif" => {
                     branches.pop().ok_or_else(|| fail("#endif without #if".into()))?;
                 }
+                "each" | "snippet" | "parameters" if self.in_snippet() => {
+                    return Err(fail(format!("`#{word}` is up to the skeleton; a snippet may use #include and #if")));
+                }
                 "each" => {
                     let block = each_block(&mut lines).ok_or_else(|| fail("#each without #end".into()))?;
                     if live {
@@ -274,6 +307,11 @@ impl Writer<'_> {
             Some((_, number)) => Err(Diagnostic::new(file, *number, 0, "#if without #endif")),
             None => Ok(()),
         }
+    }
+
+    /// Whether a snippet, or what one includes, is being written.
+    fn in_snippet(&self) -> bool {
+        self.open.iter().any(|path| self.library.declaration(path).is_some())
     }
 
     fn push(&mut self, file: &Arc<str>, line: Line) {

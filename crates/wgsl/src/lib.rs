@@ -28,6 +28,7 @@ mod diagnostic;
 mod interface;
 mod lexer;
 mod library;
+mod limits;
 mod rename;
 mod slot;
 mod validate;

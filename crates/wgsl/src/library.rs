@@ -6,6 +6,8 @@ use std::sync::Arc;
 
 use crate::declaration::{Declaration, parse_declaration, stem};
 use crate::diagnostic::Diagnostic;
+use crate::lexer::line_and_column;
+use crate::limits;
 use crate::slot::Slot;
 
 /// The files under `shaders/`, embedded at build time: (path with forward slashes, text).
@@ -72,11 +74,7 @@ impl Library {
         let mut problems = Vec::new();
         for path in paths {
             let file = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-            let added = std::fs::read_to_string(&path)
-                .map_err(|error| {
-                    Diagnostic::new(&path.display().to_string(), 0, 0, format!("the snippet cannot be read: {error}"))
-                })
-                .and_then(|text| self.add_user(&file, &text));
+            let added = read(&path).and_then(|text| self.add_user(&file, &text));
             problems.extend(added.err());
         }
         problems
@@ -117,6 +115,9 @@ impl Library {
 
     fn insert(&mut self, path: &str, text: &str, kind: SourceKind) -> Result<(), Diagnostic> {
         let path: Arc<str> = path.into();
+        if kind != SourceKind::BuiltIn {
+            limits::check_length(&path, text)?;
+        }
         if text.lines().next().is_some_and(|line| line.starts_with("//! slot:")) || kind != SourceKind::BuiltIn {
             self.snippets.insert(path.clone(), Arc::new(parse_declaration(&path, text)?));
         }
@@ -148,4 +149,17 @@ impl Library {
     pub fn id(path: &str) -> &str {
         stem(path)
     }
+}
+
+/// The text of a snippet file.
+fn read(path: &Path) -> Result<String, Diagnostic> {
+    let file = path.display().to_string();
+    let bytes = std::fs::read(path)
+        .map_err(|error| Diagnostic::new(&file, 0, 0, format!("the snippet cannot be read: {error}")))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let good = error.utf8_error().valid_up_to();
+        let before = String::from_utf8_lossy(&error.as_bytes()[..good]);
+        let (line, column) = line_and_column(&before, good);
+        Diagnostic::new(&file, line, column, "the snippet is no UTF-8 text from here on; save it in that encoding")
+    })
 }

@@ -180,3 +180,131 @@ proptest! {
         }
     }
 }
+
+/// A shading snippet with these lines before and in its function.
+fn shading_with(module: &str, body: &str) -> Option<String> {
+    let text = format!(
+        "//! slot: shading\n//! help: A test.\n{module}\nfn shade(medium: vec4f, surface: Surface) -> vec4f {{\n{body}\n    return medium;\n}}\n"
+    );
+    problem(Slot::Shading, &text)
+}
+
+#[test]
+fn what_reaches_beyond_a_slot_is_refused_where_it_stands() {
+    for (module, body, place, message) in [
+        (
+            "@compute @workgroup_size(1) fn main() {}",
+            "",
+            "3:1",
+            "`@compute` is up to the skeleton: a snippet has no entry points and no bindings",
+        ),
+        (
+            "@group(0) @binding(40) var<uniform> mine: vec4f;",
+            "",
+            "3:1",
+            "`@group` is up to the skeleton: a snippet has no entry points and no bindings",
+        ),
+        ("override size: u32 = 1;", "", "3:1", "`override` would change the whole shader, which is up to the skeleton"),
+        ("enable f16;", "", "3:1", "`enable` would change the whole shader, which is up to the skeleton"),
+        (
+            "var<workgroup> shared_color: vec4f;",
+            "",
+            "3:1",
+            "`var<workgroup>` is up to the skeleton; a snippet may have `var<private>`",
+        ),
+        (
+            "",
+            "    textureStore(out1_color, vec2u(0), medium);",
+            "5:5",
+            "`textureStore` reaches what all snippets share; a snippet gives back its result and nothing else",
+        ),
+        (
+            "",
+            "    let größe = 1.0; workgroupBarrier();",
+            "5:22",
+            "`workgroupBarrier` reaches what all snippets share; a snippet gives back its result and nothing else",
+        ),
+        ("", "    var state: out1_State;", "5:16", "`out1_State` belongs to another snippet of this shader"),
+        (
+            "",
+            "    frame.two_sided = 0.0;",
+            "5:5",
+            "Function [13] 'shade' is invalid: The pointer [3] doesn't relate to a valid destination for a store",
+        ),
+        ("", "    shade(medium, surface);", "4:4", "declaration of `shade` is recursive (uses itself here)"),
+        (
+            "",
+            "    let ray_count = größe;",
+            "5:21",
+            "no definition in scope for identifier: `größe` (unknown identifier)",
+        ),
+        ("#snippet shading", "", "3", "`#snippet` is up to the skeleton; a snippet may use #include and #if"),
+        ("#each output\n#end", "", "3", "`#each` is up to the skeleton; a snippet may use #include and #if"),
+        (
+            "#include \"traversal/traversal.wgsl\"",
+            "",
+            "3",
+            "files include each other: traversal/traversal.wgsl -> edited/shading.wgsl -> traversal/traversal.wgsl",
+        ),
+        (&" ".repeat(300 << 10), "", "3:262109", "the text is 300 KiB long, but a snippet may have 256 KiB"),
+    ] {
+        let found = shading_with(module, body).expect("must be refused");
+        assert_eq!(found.lines().next(), Some(format!("edited/shading.wgsl:{place}: {message}").as_str()));
+    }
+}
+
+/// Names of its own may be any that WGSL allows: those of the skeleton, of other slots, and words of other languages.
+#[test]
+fn names_of_a_snippet_are_its_own() {
+    for module in [
+        "fn classify(s: vec4f) -> vec4f { return s; }",
+        "struct State { Ray: f32 }\nfn lit(state: State) -> f32 { return state.Ray; }",
+        "var<private> volume: f32;\nfn ray_through() { volume += 1.0; }",
+        "const frame_ = 1.0; alias Sample = vec4f; fn größe(Δ: f32) -> f32 { return Δ; }",
+        "@must_use fn skip_empty() -> u32 { return 0u; }",
+        "struct Aligned { @align(16) x: f32 }",
+    ] {
+        assert_eq!(
+            shading_with(module, "    var ray = medium; ray.x += surface.normal.x; let out1 = ray;"),
+            None,
+            "{module}"
+        );
+    }
+}
+
+/// Depth that would overflow a stack, and length that would take all day, end with a message.
+#[test]
+fn monstrous_texts_are_refused_in_time() {
+    let many = |open: &str, inner: &str, close: &str| format!("{}{inner}{}", open.repeat(20_000), close.repeat(20_000));
+    for body in [
+        format!("    let x = {};", many("(", "1.0", ")")),
+        format!("    let x = {};", many("-", "1.0", "")),
+        many("{", "", "}"),
+        many("if true {", "", "}"),
+        format!("    {} {{}}", "if true {} else ".repeat(10_000)),
+        format!("    let x = medium{};", ".xyzw".repeat(20_000)),
+        format!("    let x = 1.0{};", " + 1.0".repeat(20_000)),
+        format!("    var x: {};", many("array<", "f32", ", 1>")),
+        "/*".repeat(60_000),
+    ] {
+        if let Some(message) = shading_with("", &body) {
+            assert!(
+                message.starts_with("edited/shading.wgsl:") || message.starts_with("ray traversal"),
+                "{message:.200}"
+            );
+        }
+    }
+}
+
+#[test]
+fn files_that_are_no_text_are_named_with_the_place() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut bytes = "//! slot: shading\n//! help: ö".as_bytes().to_vec();
+    bytes.extend([0xff, 0xfe]);
+    std::fs::write(folder.path().join("broken.wgsl"), bytes).expect("written");
+    let mut library = Library::built_in().expect("built-in snippets");
+    let problems = library.add_folder(folder.path());
+    let [problem] = &problems[..] else { panic!("{problems:?}") };
+    assert_eq!((problem.line, problem.column), (2, 12));
+    assert!(problem.to_string().contains("broken.wgsl:2:12: the snippet is no UTF-8 text"), "{problem}");
+}

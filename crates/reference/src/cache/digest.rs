@@ -12,7 +12,7 @@ use glam::DVec3;
 use rayloom_volume::{Knot, TransferFunction, Volume};
 
 /// Raised whenever the same scene may come to another picture.
-const VERSION: u64 = 2;
+const VERSION: u64 = 3;
 
 /// The key of a picture of `scene`: equal for equal pictures, different for different ones but for chances of 2^-128.
 ///
