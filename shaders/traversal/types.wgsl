@@ -21,7 +21,7 @@ struct Frame {
     termination_opacity: f32,
     /// Bricks of the skipping map a unit of volume coordinates.
     brick_scale: vec3f,
-    /// 1 flips normals towards the viewer.
+    /// 1 lights both sides: normals are turned to the viewer (surfaces) or to the light (media).
     two_sided: f32,
     image_size: vec2u,
     /// Upper bound of samples a ray.

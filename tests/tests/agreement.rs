@@ -1,8 +1,8 @@
 //! The picture of the ray loop against the same samples taken in float64, by a renderer that shares no code with it.
 //!
 //! Where single pixels differ, the two disagree about a jump that rounding decides: whether a ray that grazes a surface meets
-//! it (*silhouette*, *another crossing*), or to which side a normal that is seen edge-on is turned by two-sided lighting
-//! (*same place*: without `two_sided` these vanish).
+//! it (*silhouette*, *another crossing*), or to which side the normal of a surface that is seen edge-on is turned by two-sided
+//! lighting (*same place*: without `two_sided` these vanish).
 
 use std::path::PathBuf;
 

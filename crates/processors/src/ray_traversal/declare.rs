@@ -178,7 +178,7 @@ fn appearance(declaration: Declaration) -> Declaration {
                 .help("The length to which opacities refer. 0 takes the mean voxel spacing. The picture does not depend on step or spacing otherwise."),
         )
         .property(PropertyDecl::light("light", "Light", Light::default()).help("A directional light, fixed to the camera or to the world."))
-        .property(PropertyDecl::bool("two_sided", "Two-sided", true).help("Turns normals towards the viewer, so that surfaces are lit from both sides."))
+        .property(PropertyDecl::bool("two_sided", "Two-sided", true).help("Lights both sides: normals of surfaces are turned towards the viewer, those of media, which have no front, towards the light."))
         .property(
             PropertyDecl::float("gradient_fade", "Gradient fade", 0.002)
                 .range(1e-6, 1.0)
