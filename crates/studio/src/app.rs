@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use egui_tiles::{Tree, UiResponse};
+use rayloom_network::Address;
 use rayloom_processors::registry;
 
 use crate::commands::{self, KeyList};
@@ -12,8 +13,10 @@ use crate::dialogs::Chooser;
 use crate::display::{Display, gpu_of};
 use crate::engine::Engine;
 use crate::files::{self, Files, Folders, Preferences, Settings};
+use crate::inspect::text::number;
 use crate::palette::{Chosen, Palette};
 use crate::panels::{self, Pane, Panels};
+use crate::probe::traversals;
 use crate::session::{Mode, Session, Severity};
 use crate::theme;
 use crate::visualization::Application;
@@ -144,7 +147,7 @@ impl Studio {
         }
     }
 
-    fn status_line(&self, ui: &mut egui::Ui) {
+    fn status_line(&mut self, ui: &mut egui::Ui) {
         ui.horizontal(|ui| {
             let engine = &self.session.engine;
             let report = &engine.results.report;
@@ -172,6 +175,7 @@ impl Studio {
                 ui.separator();
                 ui.label(format!("1/{divisor} resolution while something moves"));
             }
+            self.judgement(ui);
             if let Some(message) = self.session.messages.last()
                 && message.when.elapsed().as_secs() < 10
             {
@@ -179,6 +183,24 @@ impl Studio {
                 ui.label(message.text.lines().next().unwrap_or_default());
             }
         });
+    }
+
+    /// The estimated error of the picture in the first canvas in sight, and how many of its samples count.
+    fn judgement(&mut self, ui: &mut egui::Ui) {
+        let session = &mut self.session;
+        let canvas = session.engine.results.canvases.keys().next();
+        let traversal = canvas.and_then(|canvas| traversals(session.network(), canvas).into_iter().next());
+        let Some(traversal) = traversal.filter(|_| session.estimating) else { return };
+        // Where there is no estimate, the failure of the same traversal is told as such.
+        let Some(Ok(judgement)) = session.judgement(ui.ctx(), &Address::new(traversal, "image")) else { return };
+        ui.separator();
+        let error = number(judgement.estimate.rmse);
+        let text = format!("error about {error}, {:.0} % of the samples count", 100.0 * judgement.contributing);
+        let help = "Root mean square error of the picture, estimated from pictures with half and twice the sampling rate; \
+                    click to compare it with an exact one.";
+        if ui.add(egui::Label::new(text).sense(egui::Sense::click())).on_hover_text(help).clicked() {
+            session.to_open.push(Pane::Accuracy);
+        }
     }
 
     fn title(&self) -> String {

@@ -37,7 +37,7 @@ pub use display::{Display, Layer, Look};
 pub use document::Document;
 pub use engine::{Engine, Results};
 pub use files::{Abandoned, Folders, Recovery};
-pub use inspect::{ChannelStatistics, Inspection, Pixel, Reading, Statistics, hover, statistics};
+pub use inspect::{ChannelStatistics, Inspection, Judgement, Pixel, Reading, Statistics, hover, statistics};
 pub use panels::{Navigation, Pane};
 pub use probe::{Probe, Ray};
 pub use quality::Quality;

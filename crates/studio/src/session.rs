@@ -67,6 +67,8 @@ pub struct Session {
     pub display: Display,
     /// What is known about data that is looked at.
     pub inspection: Inspection,
+    /// Whether the error of the picture is estimated when it stands still.
+    pub estimating: bool,
     /// The ray that is looked at.
     pub probe: Probe,
     /// Panes that panels ask the window to open, after this frame.
@@ -102,6 +104,7 @@ impl Session {
             chooser: Chooser::default(),
             display,
             inspection: Inspection::default(),
+            estimating: true,
             probe: Probe::default(),
             to_open: Vec::new(),
             wants_palette: false,

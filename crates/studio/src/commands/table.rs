@@ -210,6 +210,14 @@ const VIEW: &[&[Command]] = &[
         editing("Show application", "Brings to the front what visualization mode shows, to choose it.", |studio, _| {
             studio.session.to_open.push(Pane::Application);
         }),
+        editing(
+            "Estimate the error",
+            "Tells in the status line how exact the picture is, once it stands still.",
+            |studio, _| {
+                studio.session.estimating = !studio.session.estimating;
+            },
+        )
+        .ticked(|studio, _| studio.session.estimating),
         editing("Default layout", "Puts all panels where they were at first.", |studio, _| {
             studio.tiles = panels::default_layout();
         }),

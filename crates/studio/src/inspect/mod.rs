@@ -3,12 +3,14 @@
 mod digest;
 mod geometry;
 pub(crate) mod image;
+mod judgement;
 mod latest;
 mod probe;
 mod statistics;
 pub(crate) mod text;
 mod volume;
 
+pub use judgement::Judgement;
 pub use probe::{Pixel, Reading};
 pub use statistics::{ChannelStatistics, Statistics, statistics};
 
@@ -31,6 +33,7 @@ pub struct Inspection {
     statistics: Latest<Address, Image, Result<Statistics, GpuError>>,
     digests: Latest<usize, VolumeData, Digest>,
     readings: Latest<String, Pixel, Result<Reading, GpuError>>,
+    judge: judgement::Judge,
 }
 
 impl Inspection {
@@ -39,6 +42,7 @@ impl Inspection {
         self.statistics.end_frame();
         self.digests.end_frame();
         self.readings.end_frame();
+        self.judge.end_frame();
     }
 }
 

@@ -15,6 +15,7 @@ use crate::comparison::{Answer, Outcome, Question, image_at};
 use crate::display::Look;
 use crate::inspect::image::paint;
 use crate::inspect::text::number;
+use crate::panels::Pane;
 use crate::session::Session;
 use crate::task::Task;
 use crate::theme;
@@ -90,6 +91,7 @@ impl AccuracyPanel {
             };
             let [width, height] = image.size();
             let whole = Rectangle { x: 0, y: 0, width, height };
+            estimate(ui, session, &chain);
             let asked = self.bar(ui, whole);
             self.numbers(ui);
             let marked = self.picture(ui, session, &image);
@@ -274,6 +276,29 @@ impl AccuracyPanel {
             }
         }
     }
+}
+
+/// What is known without a reference, and the way to the map of samples.
+fn estimate(ui: &mut egui::Ui, session: &mut Session, chain: &Chain) {
+    let judgement = session.judgement(ui.ctx(), &chain.image);
+    ui.horizontal_wrapped(|ui| {
+        match judgement {
+            None => ui.weak("The error is estimated once the picture stands still."),
+            Some(Err(error)) => ui.colored_label(theme::WARNING, error),
+            Some(Ok(judgement)) => {
+                let (rmse, p99) = (number(judgement.estimate.rmse), number(judgement.estimate.p99));
+                let order = judgement.estimate.order.map_or(String::new(), |order| format!(", order {order:.1}"));
+                ui.label(format!("Estimated error: {rmse} root mean square, 99 % below {p99}{order}.")).on_hover_text(
+                    "By Richardson's estimate, from pictures with half and twice the sampling rate. The order is the power of \
+                     the step with which the error falls: 2 in smooth scenes, 1 where there are jumps.",
+                );
+                ui.label(format!("{:.1} % of the samples contribute.", 100.0 * judgement.contributing))
+            }
+        };
+        if ui.small_button("Map of samples").on_hover_text("Samples taken and contributing, pixel by pixel.").clicked() {
+            session.to_open.push(Pane::Inspector(Address::new(chain.traversal(), "samples")));
+        }
+    });
 }
 
 /// Name and meaning of a reference.

@@ -48,7 +48,12 @@ pub fn harness<F: FnMut(&mut egui::Ui, &mut Session) + 'static>(network: &str, s
 
 /// The whole window.
 pub fn studio(options: Options) -> Harness<'static, Studio> {
-    builder().build_eframe(move |creation| Studio::new(creation, &options).expect("a studio"))
+    builder().build_eframe(move |creation| {
+        let mut studio = Studio::new(creation, &options).expect("a studio");
+        // Tests that are not about it need not wait for the pictures that it takes.
+        studio.session.estimating = false;
+        studio
+    })
 }
 
 /// Frames until something is labelled so.
