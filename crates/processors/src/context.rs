@@ -87,9 +87,13 @@ impl Context {
     pub fn target(&mut self, label: &str, size: [u32; 2], format: TextureFormat) -> Result<Arc<Texture>, GpuError> {
         let made = self.pool.counts().created;
         let target = self.pool.get(&self.gpu, label, size, format)?;
-        let why = if self.pool.counts().created > made { "made anew" } else { "taken over from an earlier use" };
+        let is_new = self.pool.counts().created > made;
         self.ledger.record(|| {
-            Explanation::new(Role::Allocated, format!("{label}: {}", texture(&target)), why).bytes(target.bytes())
+            let allocated = |why| Explanation::new(Role::Allocated, format!("{label}: {}", texture(&target)), why);
+            match is_new {
+                true => allocated("made anew").bytes(target.bytes()),
+                false => allocated("taken over from an earlier use, so no new memory"),
+            }
         });
         Ok(target)
     }

@@ -56,8 +56,11 @@ impl Pass<'_> {
 
     /// A slot that is filled at most once.
     fn slot(&self, slot: Slot) -> Explanation {
-        let chosen = self.plan.choice.snippets.get(&slot).map(|path| Library::id(path));
-        let chosen = chosen.unwrap_or("none");
+        let chosen = match self.plan.choice.snippets.get(&slot) {
+            Some(path) if path.starts_with("edited/") => "text of your own",
+            Some(path) => Library::id(path),
+            None => "none",
+        };
         if self.has(&format!("slot_{slot}")) {
             let why = match slot {
                 Slot::Gradient => self.readers_of_the_gradient(),

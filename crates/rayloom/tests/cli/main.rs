@@ -1,6 +1,7 @@
 //! The built command line from outside: exit codes, texts and files.
 
 mod documents;
+mod explaining;
 mod failures;
 mod flagship;
 mod listings;
