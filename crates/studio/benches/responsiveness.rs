@@ -1,7 +1,7 @@
 //! Prints how well the studio keeps up: pictures a second while the camera is dragged, the longest frame of everything that could
 //! hold the window up, what hovering costs, and a large network. A window without a screen, on the real device.
 //!
-//!     cargo bench -p rayloom-studio --bench responsiveness
+//!     cargo bench -p rayloom-studio --bench responsiveness [drag] [frames] [hovering] [large]
 
 #[path = "../tests/window/mod.rs"]
 mod window;
@@ -24,11 +24,22 @@ const FRAME: Duration = Duration::from_micros(16_667);
 const MOVES: usize = 240;
 
 fn main() {
-    drag("networks/brain.json");
-    drag("networks/apps/mri_viewer.json");
-    frames();
-    hovering();
-    large_network();
+    let named: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
+    let wanted = |name: &str| named.is_empty() || named.iter().any(|wanted| wanted == name);
+    if wanted("drag") {
+        drag("networks/brain.json", false);
+        drag("networks/brain.json", true);
+        drag("networks/apps/mri_viewer.json", true);
+    }
+    if wanted("frames") {
+        frames();
+    }
+    if wanted("hovering") {
+        hovering();
+    }
+    if wanted("large") {
+        large_network();
+    }
 }
 
 fn open(network: &Path, mode: Mode) -> Window {
@@ -67,30 +78,35 @@ fn picture(session: &Session) -> Option<(usize, [u32; 2])> {
     Some((Arc::as_ptr(image) as usize, image.size()))
 }
 
-/// Drags the camera of the canvas in a window of 1280 x 800 in visualization mode, painting every frame as a window would.
-fn drag(network: &str) {
+/// Drags the camera of the canvas in a window of 1280 x 800 in visualization mode. `painted`: the window is drawn in every frame,
+/// on the device that renders the pictures, and read back, as no real window is.
+fn drag(network: &str, painted: bool) {
     let mut window = open(&window::project(network), Mode::Visualization);
     let middle = window.get_by_label("canvas canvas").rect().center();
     let full = picture(&window.state().session).map(|(_, size)| size).unwrap_or_default();
     window.hover_at(middle);
     step(&mut window);
     press(&window, middle, true);
-    let (mut pictures, mut sizes, mut frames) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut pictures, mut evaluations, mut frames) = (vec![Instant::now()], Vec::new(), Vec::new());
     let mut last = picture(&window.state().session);
     for number in 0..MOVES {
         let angle = number as f32 / MOVES as f32 * std::f32::consts::TAU;
         window.hover_at(middle + 120.0 * egui::vec2(angle.sin(), 0.5 - 0.5 * angle.cos()));
         let start = Instant::now();
-        frames.push(step(&mut window));
-        window.render().expect("painted");
+        window.step();
+        frames.push(start.elapsed());
+        if painted {
+            window.render().expect("painted");
+        }
         std::thread::sleep(FRAME.saturating_sub(start.elapsed()));
         let now = picture(&window.state().session);
         if now.map(|(id, _)| id) != last.map(|(id, _)| id) {
             pictures.push(Instant::now());
-            sizes.extend(now.map(|(_, size)| size));
+            evaluations.push(window.state().session.engine.results.report.elapsed);
             last = now;
         }
     }
+    let coarse = last.map(|(_, size)| size).unwrap_or_default();
     press(&window, middle, false);
     let released = Instant::now();
     window.step();
@@ -100,18 +116,21 @@ fn drag(network: &str) {
     let refined = released.elapsed();
     let mut rates: Vec<f64> = pictures.windows(2).map(|pair| 1.0 / (pair[1] - pair[0]).as_secs_f64()).collect();
     rates.sort_by(f64::total_cmp);
-    let at = |part: f64| rates.get((part * rates.len() as f64) as usize).copied().unwrap_or_default();
-    let longest = frames.iter().max().copied().unwrap_or_default();
+    evaluations.sort();
+    frames.sort();
+    let rate = |part: f64| rates.get((part * rates.len() as f64) as usize).copied().unwrap_or_default();
     println!(
-        "{network}: {} pictures, {:.1} a second (5 %: {:.1}, 95 %: {:.1}); {:?} of {full:?} pixels at last; full size {} after \
-         letting go; longest frame {}",
-        pictures.len(),
-        at(0.5),
-        at(0.05),
-        at(0.95),
-        sizes.last().copied().unwrap_or_default(),
+        "{network}{}: {} pictures in {MOVES} frames, {:.1} a second (5 %: {:.1}, 95 %: {:.1}), {coarse:?} of {full:?} pixels; \
+         an evaluation {}; full size {} after letting go; the window's thread {} a frame, at most {}",
+        if painted { ", painted" } else { "" },
+        rates.len(),
+        rate(0.5),
+        rate(0.05),
+        rate(0.95),
+        ms(evaluations.get(evaluations.len() / 2).copied().unwrap_or_default()),
         ms(refined),
-        ms(longest),
+        ms(frames[frames.len() / 2]),
+        ms(frames.last().copied().unwrap_or_default()),
     );
 }
 
