@@ -63,6 +63,11 @@ impl Document {
         self.saved = Some(network.to_text(None));
     }
 
+    /// Whether a network is what was last saved or loaded.
+    pub fn is_saved_as(&self, network: &Network) -> bool {
+        self.saved.as_ref() == Some(&network.to_text(None))
+    }
+
     /// The network.
     pub fn network(&self) -> &Network {
         &self.network

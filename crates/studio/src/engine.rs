@@ -6,7 +6,9 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 
 use rayloom_gpu::{Gpu, GpuError};
-use rayloom_network::{Address, Backend, Evaluator, Facts, Job, Network, Outputs, ProcessError, Report, Request, Run};
+use rayloom_network::{
+    Address, Backend, Evaluator, Facts, Job, Level, Network, Outputs, ProcessError, Report, Request, Run,
+};
 use rayloom_processors::{Data, Image, Runner, Trace};
 use rayloom_volume::Progress;
 
@@ -18,6 +20,8 @@ struct Order {
     request: Request,
     ray: Option<Ray>,
     number: u64,
+    /// Processors to run although nothing that the network knows of changed, and why.
+    refresh: Vec<(String, String)>,
 }
 
 /// What the thread says.
@@ -71,6 +75,8 @@ pub struct Engine {
     thread: Option<JoinHandle<()>>,
     /// Number of the last order.
     ordered: u64,
+    /// What the next order is to run in any case.
+    refresh: Vec<(String, String)>,
     last: Option<(u64, Request, Option<Ray>)>,
     /// A ray to follow behind every evaluation; asked for anew in every frame.
     pub ray: Option<Ray>,
@@ -104,12 +110,19 @@ impl Engine {
             news,
             thread: Some(thread),
             ordered: 0,
+            refresh: Vec::new(),
             last: None,
             ray: None,
             results: Results::default(),
             running: None,
             progress: BTreeMap::new(),
         })
+    }
+
+    /// Has processors run at the next order, for a reason that the network does not know.
+    pub fn refresh(&mut self, processors: Vec<String>, reason: &str) {
+        self.refresh.extend(processors.into_iter().map(|id| (id, reason.to_owned())));
+        self.last = None;
     }
 
     /// Asks for an evaluation unless it is what was asked for last. `revision` tells states of the network apart.
@@ -122,8 +135,13 @@ impl Engine {
         }
         self.ordered += 1;
         let ray = self.ray.clone();
-        let order =
-            Order { network: network.clone(), request: request.clone(), ray: ray.clone(), number: self.ordered };
+        let order = Order {
+            network: network.clone(),
+            request: request.clone(),
+            ray: ray.clone(),
+            number: self.ordered,
+            refresh: std::mem::take(&mut self.refresh),
+        };
         self.last = Some((revision, request, ray));
         if let Some(orders) = &self.orders {
             // A thread that ended says so by its silence: `is_busy` stays true and the status line shows it.
@@ -192,8 +210,12 @@ fn work(mut backend: Telling, orders: &Receiver<Order>, wake: &impl Fn()) {
     let mut evaluator = Evaluator::new();
     while let Ok(mut order) = orders.recv() {
         // A burst of edits is one evaluation: of the newest.
-        while let Ok(newer) = orders.try_recv() {
+        while let Ok(mut newer) = orders.try_recv() {
+            newer.refresh.append(&mut order.refresh);
             order = newer;
+        }
+        for (id, reason) in order.refresh.drain(..) {
+            evaluator.invalidate(&id, Level::Result, reason);
         }
         let report = evaluator.evaluate(&order.network, &mut backend, &order.request);
         backend.runner.tidy(|id| order.network.processor(id).is_some());

@@ -190,3 +190,41 @@ fn the_layout_and_recent_files_come_back_and_broken_settings_are_a_note() {
     wait_for(&mut window, "the layout makes no sense here");
     assert_eq!(window.ctx.zoom_factor(), 1.25, "what makes sense is left out with what does not");
 }
+
+#[test]
+fn files_that_change_on_the_disk_are_read_again_and_unsaved_changes_are_asked_about() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("watched.json");
+    let write = |name: &str| {
+        let text = format!(
+            r#"{{"rayloom": 1, "name": "{name}", "processors": [
+                {{"id": "source", "type": "volume_source", "properties": {{"file": "ball.volume.json"}}}}]}}"#
+        );
+        std::fs::write(&path, text).expect("written");
+    };
+    let data = |value: u8| {
+        std::fs::write(folder.path().join("ball.raw"), [value; 8]).expect("written");
+        let header = format!(r#"{{"raw": "ball.raw", "dims": [2, 2, 2], "type": "u8", "note": {value}}}"#);
+        std::fs::write(folder.path().join("ball.volume.json"), header.replace(r#", "note": 1"#, "")).expect("written");
+    };
+    write("First");
+    data(1);
+    let mut window = studio(Options { network: Some(path.clone()), ..Options::default() });
+    window.run_steps(4);
+    // Looked at once before it changes.
+    std::thread::sleep(std::time::Duration::from_millis(700));
+    write("Second edition");
+    wait_until(&mut window, |studio| studio.session.network().name == "Second edition");
+    assert!(!window.state().session.document.is_modified());
+    add_canvas(&mut window, "mine");
+    write("Third");
+    wait_for(&mut window, "changed by another program");
+    keep_picture(&mut window, "changed_on_disk");
+    assert_eq!(window.state().session.network().name, "Second edition");
+    window.get_by_label("Take the file's").click();
+    wait_until(&mut window, |studio| studio.session.network().name == "Third");
+    assert!(window.state_mut().session.document.undo(), "what was replaced is lost");
+    assert!(window.state().session.network().processor("mine").is_some());
+    data(77);
+    wait_for(&mut window, "ball.volume.json changed and is read again");
+}

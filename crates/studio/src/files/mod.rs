@@ -7,8 +7,10 @@ mod keeper;
 mod question;
 mod recent;
 mod recovery;
+mod reload;
 mod rescue;
 mod settings;
+mod watch;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -23,6 +25,7 @@ use crate::later::Later;
 use crate::session::{Session, Severity};
 use question::Decision;
 use recent::RecentFiles;
+use reload::Reload;
 use rescue::Rescue;
 
 pub use folders::Folders;
@@ -67,6 +70,7 @@ pub struct Files {
     may_close: bool,
     rescue: Rescue,
     recent: RecentFiles,
+    reload: Reload,
 }
 
 impl Files {
@@ -86,6 +90,7 @@ impl Files {
             may_close: false,
             rescue: rescue.unwrap_or_default(),
             recent,
+            reload: Reload::new(context),
         }
     }
 
@@ -165,6 +170,7 @@ impl Files {
         if let Some(path) = dropped_network(context) {
             self.open(&path, session, context);
         }
+        self.reload.follow(session, context);
         if let Some(problem) = self.recent.follow(context) {
             session.tell(Severity::Error, problem);
         }
@@ -183,6 +189,7 @@ impl Files {
 
     /// Shows what there is to decide that can wait.
     pub fn bars(&mut self, ui: &mut egui::Ui, session: &mut Session) {
+        self.reload.show(ui, session);
         if self.rescue.show(ui) {
             self.leave(Next::Recover, session, ui.ctx());
         }
