@@ -222,8 +222,8 @@ pub struct TuneArgs {
     /// Set a property first; may be repeated, in this order. The value is JSON, or a bare word for a text.
     #[arg(long, value_name = "PROCESSOR.PROPERTY=JSON", value_parser = setting)]
     pub set: Vec<Setting>,
-    /// The largest error, such as 0.004 or 1/255: neither the root mean square error nor the error of 99 % of the pixels may
-    /// be larger, on any view. Errors are of premultiplied colours from 0 to 1, in the pixels that show anything.
+    /// The largest error, such as 0.004 or 1/255, that 99 % of the pixels may have on any view. Errors are of premultiplied
+    /// colours from 0 to 1, in the pixels that show anything.
     #[arg(long, value_name = "ERROR", value_parser = fraction)]
     pub max_error: Option<f64>,
     /// The longest time that a picture may take, milliseconds on the device, at the size of the canvas.

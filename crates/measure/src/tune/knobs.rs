@@ -10,7 +10,8 @@ use crate::setting::{Assignment, Setting, plain};
 
 /// Samples per voxel, rung by rung: two rungs are a factor of two. Fewer than one sample in two voxels may miss what some views
 /// show and others do not, so that the error of one view says nothing about that of another.
-pub(super) const RATES: [f64; 15] = [0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 48.0, 64.0];
+pub(super) const RATES: [f64; 19] =
+    [0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 48.0, 64.0, 96.0, 128.0, 192.0, 256.0];
 /// The rung of one sample a voxel.
 pub(super) const ONE: usize = 2;
 /// Share of the allowed error that early termination may cause.

@@ -107,13 +107,16 @@ impl Search<'_> {
         Ok(Found { candidate, met: met && !unseen.is_empty(), seen, unseen })
     }
 
-    /// The most accurate of all that were tried, which may meet the target without the room that others are asked for.
+    /// The most accurate of all that were tried. With the new views it may have earned its trust after all.
     fn most_accurate(&mut self, allowed: Option<f64>) -> Result<Found, MeasureError> {
         let best = self.tried.iter().min_by(|a, b| a.error.total_cmp(&b.error)).map(|tried| tried.candidate.clone());
         let candidate = best.ok_or_else(|| {
             MeasureError::AllRefused("Not even one sample a voxel with a transfer function works.".into())
         })?;
-        self.look(candidate, allowed)
+        let mut found = self.look(candidate, allowed)?;
+        let errors = [&found.seen[..], &found.unseen].concat();
+        found.met &= allowed.is_some_and(|allowed| spread::limit(&errors) <= allowed);
+        Ok(found)
     }
 
     /// Sampling rates that make sense: well below that of the finest picture where that is what is compared with.
@@ -139,7 +142,7 @@ impl Search<'_> {
                     return Ok(Answer::Yes);
                 }
                 floor = (errors[0], if errors[0] > FLOOR * floor.0 { floor.1 + 1 } else { 0 });
-                Ok(if errors[0] > allowed && floor.1 >= 2 { Answer::Stop } else { Answer::No })
+                Ok(if errors[0] > allowed && floor.1 >= 3 { Answer::Stop } else { Answer::No })
             })?;
             found.extend(rung.map(|rung| self.knobs.at(&integrator, rung)));
         }
