@@ -75,6 +75,9 @@ pub enum EditError {
     /// A position that is not finite.
     #[error("the position of `{0}` is not finite; give two finite numbers.")]
     Position(String),
+    /// A frame that cannot be drawn.
+    #[error("the frame `{0}` has no size or is not finite; give a place, and a width and height above 0.")]
+    Frame(String),
     /// A connection was refused.
     #[error(transparent)]
     Connection(#[from] Refusal),

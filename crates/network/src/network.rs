@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value as Json};
 
+use crate::frame::Frame;
 use crate::link::Link;
 use crate::names::Address;
 use crate::processor::{Declaration, ProcessorType};
@@ -29,6 +30,7 @@ pub struct Network {
     pub(crate) processors: Vec<Processor>,
     pub(crate) connections: Vec<Connection>,
     pub(crate) links: Vec<Link>,
+    pub(crate) frames: Vec<Frame>,
 }
 
 /// One outport feeding one inport.
@@ -184,6 +186,7 @@ impl Network {
             processors: Vec::new(),
             connections: Vec::new(),
             links: Vec::new(),
+            frames: Vec::new(),
         }
     }
 

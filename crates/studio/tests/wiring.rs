@@ -295,3 +295,38 @@ fn three_hundred_nodes_and_five_hundred_wires_are_drawn() {
     keep_picture(&mut window, "large");
     std::fs::remove_dir_all(&folder).expect("removed");
 }
+
+#[test]
+fn a_frame_moves_with_what_is_in_it_and_the_map_goes_there() {
+    let mut window = chain();
+    let at = |window: &Window, id: &str| window.state().session.network().processor(id).expect("there").position();
+    let (inside, outside) = (at(&window, "cube_proxy"), at(&window, "canvas"));
+    let before = text(&window);
+    window.get_by_label_contains("processor cube_proxy").click();
+    window.run_steps(4);
+    key(&mut window, Modifiers::NONE, Key::G);
+    assert_eq!(window.state().session.network().frames().len(), 1);
+    let head = window.get_by_label("frame Notes").rect();
+    let grip = head.left_center() + Vec2::new(30.0, 0.0);
+    drag_and_drop(&mut window, grip, grip + Vec2::new(30.0, -24.0));
+    let moved = at(&window, "cube_proxy");
+    assert!(moved[0] > inside[0] + 10.0 && moved[1] < inside[1] - 10.0, "{inside:?} {moved:?}");
+    assert_eq!(at(&window, "canvas"), outside);
+    key(&mut window, Modifiers::NONE, Key::M);
+    let map = window.get_by_label("map of the network").rect();
+    keep_picture(&mut window, "frame");
+    let seen = window.get_by_label_contains("processor canvas").rect().center();
+    window.hover_at(map.left_center());
+    window.run_steps(1);
+    window.drag_at(map.left_center() + Vec2::new(4.0, 0.0));
+    window.run_steps(2);
+    window.drop_at(map.left_center() + Vec2::new(4.0, 0.0));
+    window.run_steps(4);
+    let now = window.query_by_label_contains("processor canvas").map(|node| node.rect().center());
+    assert!(now.is_none_or(|now| now.x > seen.x + 20.0), "the view did not move");
+    // A drag is one step, as is the frame.
+    for _ in 0..2 {
+        key(&mut window, Modifiers::COMMAND, Key::Z);
+    }
+    assert_eq!(text(&window), before);
+}

@@ -13,6 +13,7 @@ use super::VERSION;
 use super::paths::resolve;
 use crate::connect::can_keep;
 use crate::edit::EditError;
+use crate::frame::Frame;
 use crate::json::{Node, Strict, ValueError};
 use crate::link::Link;
 use crate::names::{Address, hint, is_valid_id};
@@ -144,7 +145,16 @@ struct Loader {
 
 impl Loader {
     fn document(&mut self, root: &Node<'_>) -> Result<(), ValueError> {
-        root.only(&["rayloom", "name", "description", "processors", "connections", "links", "visualization"])?;
+        root.only(&[
+            "rayloom",
+            "name",
+            "description",
+            "processors",
+            "connections",
+            "links",
+            "frames",
+            "visualization",
+        ])?;
         if let Some(name) = root.field("name")? {
             self.network.name = name.string()?.to_owned();
         }
@@ -163,6 +173,23 @@ impl Loader {
         for node in root.field("links")?.map_or(Ok(Vec::new()), |node| node.array())? {
             self.link(&node)?;
         }
+        for node in root.field("frames")?.map_or(Ok(Vec::new()), |node| node.array())? {
+            self.frame(&node)?;
+        }
+        Ok(())
+    }
+
+    fn frame(&mut self, node: &Node<'_>) -> Result<(), ValueError> {
+        const RECT: &str = "[left, top, width, height], the last two above 0";
+        node.only(&["title", "text", "rect"])?;
+        let text = |name: &str| node.field(name)?.map_or(Ok(String::new()), |text| text.string().map(str::to_owned));
+        let rect = node.required("rect", RECT)?;
+        let numbers = rect.numbers(4)?;
+        if numbers[2] <= 0.0 || numbers[3] <= 0.0 {
+            return Err(rect.error(rect.json.to_string(), RECT));
+        }
+        let rect = [numbers[0], numbers[1], numbers[2], numbers[3]];
+        self.network.frames.push(Frame { title: text("title")?, text: text("text")?, rect });
         Ok(())
     }
 

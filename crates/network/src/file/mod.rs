@@ -8,9 +8,12 @@
 //!     {"id": "source", "type": "volume_source", "properties": {"file": "../data/head.nrrd"}, "position": [0, 0]}
 //!   ],
 //!   "connections": ["source.volume -> proxy.volume"],
-//!   "links": [["entry.camera", "view.camera"]]
+//!   "links": [["entry.camera", "view.camera"]],
+//!   "frames": [{"title": "Data", "text": "Any volume does.", "rect": [-20, -40, 200, 140]}]
 //! }
 //! ```
+//!
+//! `frames` are titled rectangles with notes (left, top, width, height); files without any lack the field, as older ones do.
 
 mod layout;
 mod load;

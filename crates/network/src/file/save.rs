@@ -10,6 +10,7 @@ use thiserror::Error;
 use super::VERSION;
 use super::layout::{Ordered, Piece, lay_out};
 use super::paths::relate;
+use crate::frame::Frame;
 use crate::network::{Network, Processor};
 use crate::property::PropertyKind;
 use crate::value::Value;
@@ -53,6 +54,10 @@ impl Network {
             let links = self.links.iter().map(|link| Piece::Plain(vec![link.a.to_string(), link.b.to_string()].into()));
             document.push("links", Piece::List(links.collect()));
         }
+        if !self.frames.is_empty() {
+            let frames = self.frames.iter().map(|frame| Piece::Object(write_frame(frame)));
+            document.push("frames", Piece::List(frames.collect()));
+        }
         if !self.visualization.is_null() {
             document.push_json("visualization", self.visualization.clone());
         }
@@ -79,6 +84,16 @@ fn write_processor(processor: &Processor, folder: Option<&Path>) -> Ordered {
     for (name, json) in extra {
         fields.push_json(name, json.clone());
     }
+    fields
+}
+
+fn write_frame(frame: &Frame) -> Ordered {
+    let mut fields = Ordered::default();
+    fields.push_json("title", frame.title.as_str());
+    if !frame.text.is_empty() {
+        fields.push_json("text", frame.text.as_str());
+    }
+    fields.push_json("rect", frame.rect.to_vec());
     fields
 }
 

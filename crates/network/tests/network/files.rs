@@ -31,6 +31,20 @@ fn version_1_loads_as_it_always_did_and_saves_byte_for_byte() {
 }
 
 #[test]
+fn frames_come_back_byte_for_byte_and_those_without_a_size_are_refused() {
+    let text = include_str!("../fixtures/v1_frames.json");
+    let mut network = load(text).network;
+    assert_eq!(network.frames()[0].text, "Any volume does.\nThis one has a closed form.");
+    assert_eq!(network.to_text(None), text);
+    let flat = Frame { title: "Flat".into(), rect: [0.0, 0.0, 10.0, 0.0], ..Frame::default() };
+    insta::assert_snapshot!(network.set_frames(vec![flat]).unwrap_err(), @"the frame `Flat` has no size or is not finite; give a place, and a width and height above 0.");
+    assert_eq!(network.frames().len(), 2);
+    let error =
+        Network::from_text(&text.replace("100, 100]", "100, -1]"), Path::new("x.json"), &registry()).unwrap_err();
+    insta::assert_snapshot!(error, @"x.json: frames[1].rect: found [300,0,100,-1], expected [left, top, width, height], the last two above 0.");
+}
+
+#[test]
 fn defaults_are_left_out() {
     let mut network = pipeline();
     network.set_property("view", "rate", Value::Float(2.0)).unwrap();

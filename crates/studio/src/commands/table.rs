@@ -129,6 +129,11 @@ const EDIT: &[&[Command]] = &[
         })
         .keys(&[plain(Key::L)])
         .scope(Scope::Network),
+        editing("Add a frame", "Puts a titled rectangle with notes around what is selected.", |studio, context| {
+            network(studio, context, NetworkAction::AddFrame(None));
+        })
+        .keys(&[plain(Key::G)])
+        .scope(Scope::Network),
     ],
 ];
 
@@ -145,6 +150,11 @@ const VIEW: &[&[Command]] = &[
             network(studio, context, NetworkAction::Fit);
         })
         .keys(&[plain(Key::F)])
+        .scope(Scope::Network),
+        editing("Map", "Shows the whole network small in a corner; a click there goes there.", |studio, context| {
+            network(studio, context, NetworkAction::Map);
+        })
+        .keys(&[plain(Key::M)])
         .scope(Scope::Network),
         Command::new("Larger", "Makes text and everything else in the window larger.", |_, context| {
             egui::gui_zoom::zoom_in(context);

@@ -66,6 +66,8 @@ fn part(network: &Network, ids: &BTreeSet<String>) -> Network {
     part.name.clear();
     part.description.clear();
     part.visualization = serde_json::Value::Null;
+    // Frames belong to the place, not to the processors; an empty list has nothing to refuse.
+    let _ = part.set_frames(Vec::new());
     let others: Vec<String> = network.processors().map(|p| p.id().to_owned()).filter(|id| !ids.contains(id)).collect();
     for id in others {
         // It was just listed, so it is there.

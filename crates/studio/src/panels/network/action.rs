@@ -7,6 +7,7 @@ use rayloom_network::{Address, Connection, EditError, Network, Refusal, Value};
 
 use super::NetworkPanel;
 use super::drag::Drag;
+use super::frames::{self, FrameEdit};
 use super::menus::LooseLink;
 use crate::panels::Pane;
 use crate::session::{Session, Severity};
@@ -27,6 +28,12 @@ pub enum Action {
     Cut(Connection),
     /// Keeps what is on an outport in sight.
     Pin(Address),
+    /// Does something to a frame.
+    Frame(FrameEdit),
+    /// Adds a frame around the selection, or at a point, or in the middle of what is visible.
+    AddFrame(Option<Pos2>),
+    /// Shows or hides the map.
+    Map,
     /// Lets a property (the second) follow another.
     Link(Address, Address),
     /// Offers the properties of a processor that may follow a property.
@@ -87,6 +94,13 @@ impl NetworkPanel {
             Action::Connect(wire, held) => connect(session, &wire, held.as_ref()),
             Action::Cut(wire) => cut(session, &wire),
             Action::Pin(outport) => session.to_open.push(Pane::Inspector(outport)),
+            Action::Frame(edit) => frames::apply(edit, &mut self.frame, &self.geometry, session),
+            Action::AddFrame(at) => {
+                let at = at.unwrap_or_else(|| self.geometry.center());
+                let area = frames::around(session, &self.geometry, at);
+                frames::apply(FrameEdit::Add(area), &mut self.frame, &self.geometry, session);
+            }
+            Action::Map => self.shows_map = !self.shows_map,
             Action::Link(leader, follower) => {
                 session.edit(&format!("link {follower} and {leader}"), |network| network.link(&leader, &follower));
             }

@@ -46,6 +46,9 @@ pub fn node(ui: &mut Ui, session: &Session, id: &str, actions: &mut Vec<Action>)
     if item(ui, "Duplicate", "Ctrl+D") {
         actions.push(Action::Duplicate);
     }
+    if item(ui, "Frame the selection", "G") {
+        actions.push(Action::AddFrame(None));
+    }
     ui.menu_button("Replace by", |ui| {
         types(ui, session, |type_id| actions.push(Action::Replace(id.to_owned(), type_id)));
     });
@@ -112,7 +115,13 @@ pub fn canvas(ui: &mut Ui, session: &Session, at: Pos2, actions: &mut Vec<Action
     if item(ui, "Search...", "Space") {
         actions.push(Action::Palette);
     }
+    if item(ui, "Add frame", "G") {
+        actions.push(Action::AddFrame(Some(at)));
+    }
     ui.separator();
+    if item(ui, "Map", "M") {
+        actions.push(Action::Map);
+    }
     if item(ui, "Show all", "F") {
         actions.push(Action::Fit);
     }

@@ -3,8 +3,10 @@
 mod action;
 mod arrange;
 mod drag;
+mod frames;
 mod geometry;
 mod menus;
+mod minimap;
 mod node;
 mod scene;
 pub(super) mod state;
@@ -55,6 +57,9 @@ pub struct NetworkPanel {
     drag: Option<Drag>,
     loose_end: Option<LooseEnd>,
     loose_link: Option<LooseLink>,
+    /// A frame that is being dragged.
+    frame: frames::Dragged,
+    shows_map: bool,
     /// Where the menu of the empty canvas was opened.
     menu_at: Pos2,
     /// Whether the last click was here, so that keys are meant for the canvas.
@@ -72,6 +77,8 @@ impl Default for NetworkPanel {
             drag: None,
             loose_end: None,
             loose_link: None,
+            frame: frames::Dragged::default(),
+            shows_map: false,
             menu_at: Pos2::ZERO,
             attentive: true,
         }
@@ -108,6 +115,7 @@ impl NetworkPanel {
         let shown = graph.show(&mut self.view, ui, |ui, show| {
             scene.begin(ui);
             scene.welcome(ui);
+            scene.frames(ui);
             show.nodes(ui, |context, ui| scene.nodes(context, ui)).edges(ui, |context, ui| scene.wires(context, ui));
         });
         let Scene { geometry, actions: done, resting, .. } = scene;
@@ -131,6 +139,14 @@ impl NetworkPanel {
         self.choose(ui, session, &mut actions);
         self.tooltips(ui, session, resting);
         self.buttons(ui, area, &mut actions);
+        if self.shows_map
+            && let Some(middle) = minimap::show(ui, session, &self.geometry)
+        {
+            self.view.scene_rect = Rect::from_center_size(middle, self.view.scene_rect.size());
+        }
+        if !ui.input(|input| input.pointer.any_down()) {
+            self.frame = frames::Dragged::default();
+        }
         for action in actions {
             self.apply(action, ui.ctx(), session);
         }
@@ -347,6 +363,7 @@ impl NetworkPanel {
                             actions.push(action);
                         }
                     };
+                    button("Map", "Show where this is in the whole network (M)", Action::Map);
                     button("Add", "Search a processor to add (Space, Ctrl+P)", Action::Palette);
                     button("Arrange", "Lay all processors out along the wires (L)", Action::Arrange);
                     button("Show all", "Bring the whole network into view (F)", Action::Fit);

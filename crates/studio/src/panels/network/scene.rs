@@ -10,6 +10,7 @@ use rayloom_network::{Address, Connection, Network, PortType, Processor};
 
 use super::action::Action;
 use super::drag::{Drag, Target};
+use super::frames;
 use super::geometry::{Geometry, WIRE};
 use super::menus;
 use super::node::{self, Card, Light, Port};
@@ -97,6 +98,11 @@ impl<'a> Scene<'a> {
         ui.ctx().accesskit_node_builder(ui.unique_id(), |node| {
             node.set_transform(egui::accesskit::Affine::new([scale, 0.0, 0.0, scale, x, y]));
         });
+    }
+
+    /// Draws the frames, behind everything else.
+    pub fn frames(&mut self, ui: &mut Ui) {
+        frames::show(ui, self.session, self.geometry.to_window.scaling, &mut self.actions);
     }
 
     /// Draws the nodes.
