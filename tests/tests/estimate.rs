@@ -60,7 +60,7 @@ fn scenes() -> Vec<(&'static str, bool, Workbench)> {
         ("bucky ball, a thin layer", false, bench(ball(), json!({"transfer_function": layer(0.5, 0.53)}))),
         ("shells, a layer", false, bench(shells, json!({"transfer_function": layer(0.55, 0.9)}))),
         ("nearest voxels", false, bench(blob(), json!({"transfer_function": smooth(), "sampling": "nearest"}))),
-        ("bucky ball, lit from both sides", false, bench(ball(), lit(true))),
+        ("bucky ball, lit from both sides", true, bench(ball(), lit(true))),
     ]
 }
 
