@@ -1,6 +1,6 @@
 //! One file that follows what changes often: written on a thread of its own, a quiet moment after the last change.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -75,7 +75,7 @@ struct Pending {
     due: Instant,
 }
 
-fn follow(file: &PathBuf, orders: &Receiver<Order>, problems: &Sender<String>) {
+fn follow(file: &Path, orders: &Receiver<Order>, problems: &Sender<String>) {
     let mut pending: Option<Pending> = None;
     let mut failing = false;
     loop {
@@ -113,7 +113,7 @@ fn follow(file: &PathBuf, orders: &Receiver<Order>, problems: &Sender<String>) {
     }
 }
 
-fn write(file: &PathBuf, text: &str) -> std::io::Result<()> {
+fn write(file: &Path, text: &str) -> std::io::Result<()> {
     if let Some(folder) = file.parent() {
         std::fs::create_dir_all(folder)?;
     }
