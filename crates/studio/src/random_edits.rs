@@ -65,7 +65,7 @@ fn value(decl: &PropertyDecl, which: usize, x: f64) -> Json {
     let knots =
         json!([{"at": -x, "color": [x, 0, 1], "opacity": x}, {"at": 40.0 * x, "color": [1, x, 0], "opacity": 0.5}]);
     match &decl.kind {
-        PropertyKind::Bool => json!(which % 2 == 0),
+        PropertyKind::Bool => json!(which.is_multiple_of(2)),
         PropertyKind::Int { range, .. } => json!(within(range.map(|end| end as f64)).round() as i64),
         PropertyKind::Float { range, .. } => json!(within(*range)),
         PropertyKind::Vector { len, range, whole, .. } => {
