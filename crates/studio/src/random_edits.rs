@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use rayloom_network::{Address, Network, PropertyDecl, PropertyKind};
+use rayloom_network::{Address, Frame, Network, PropertyDecl, PropertyKind};
 use rayloom_processors::{registry, snippet_library};
 use rayloom_wgsl::{Library, Slot};
 use serde_json::{Value as Json, json};
@@ -172,6 +172,19 @@ fn edit(network: &mut Network, roll: Roll) -> Result<(), String> {
         13 | 14 => {
             change(network, roll).ok_or("nothing to show")?.apply(network);
             Ok(())
+        }
+        15 => {
+            let mut frames = network.frames().to_vec();
+            match frames.get(which[0] % 4) {
+                Some(_) if number < 0.2 => drop(frames.remove(which[0] % 4)),
+                Some(_) => frames[which[0] % 4].rect[2] += number,
+                None => frames.push(Frame {
+                    title: format!("Frame {number}"),
+                    text: "two\nlines".into(),
+                    rect: [at[0], at[1], 200.0, 100.0],
+                }),
+            }
+            network.set_frames(frames).map_err(text)
         }
         _ => {
             let (address, decl) = property(network, which[1]).ok_or("there is none")?;

@@ -70,7 +70,7 @@ fn an_application_is_made_by_mouse_saved_and_shows_just_that() {
         expose(&mut window, label);
     }
     click(&mut window, "View");
-    click(&mut window, "Application");
+    click(&mut window, "Show application");
     assert_eq!(shown(&window), [["traversal.sampling_rate", "traversal.shading"]]);
 
     // By the picker of the panel, into a second group; then dragged to the top of the first.
@@ -138,7 +138,7 @@ fn an_application_follows_renames_and_names_what_is_gone() {
     assert!(matches!(window.state().session.network().value("sky", "first"), Some(Value::Color(_))));
 
     click(&mut window, "View");
-    click(&mut window, "Application");
+    click(&mut window, "Show application");
     window.get_by_label_contains("processor sky").click();
     window.run_steps(3);
     window.key_press(Key::Delete);

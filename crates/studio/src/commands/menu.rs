@@ -35,7 +35,10 @@ fn item(ui: &mut Ui, studio: &Studio, command: &Command) -> bool {
         Some(detail) => format!("{} {detail}", command.label),
         None => command.label.to_owned(),
     };
-    let button = Button::new(text).shortcut_text(command.keys_text(ui.ctx()));
+    let keys = command.keys_text(ui.ctx());
+    let button = Button::new(text);
+    // An empty text would make a space at the end of the name that is read out.
+    let button = if keys.is_empty() { button } else { button.shortcut_text(keys) };
     let button = match command.ticked {
         Some(ticked) => button.selected(ticked(studio, ui.ctx())),
         None => button,

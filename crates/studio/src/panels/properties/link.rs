@@ -107,7 +107,7 @@ fn expose(ui: &mut Ui, address: &Address, surroundings: &mut Surroundings<'_>) {
     }
     if let Some(change) = change {
         let verb = if matches!(change, Change::Hide(_)) { "hides" } else { "shows" };
-        let text = format!("Visualization mode {verb} {address} now (View > Application).");
+        let text = format!("Visualization mode {verb} {address} now (View > Show application).");
         surroundings.actions.extend([Action::Author(change), Action::Tell(Severity::Note, text)]);
         ui.close();
     }
