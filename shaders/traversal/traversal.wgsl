@@ -40,6 +40,9 @@
 #include "traversal/types.wgsl"
 #include "traversal/bindings.wgsl"
 #parameters
+#if own
+#include "traversal/bounds.wgsl"
+#endif
 #include "traversal/ray.wgsl"
 #include "traversal/medium.wgsl"
 #snippet sampling
@@ -106,7 +109,11 @@ fn traverse(@builtin(global_invocation_id) id: vec3u) {
         var visible = false;
         while index < ray.count && !visible {
 #if skipping
+#if own
+            index = max(index, skip_empty(ray, index));
+#else
             index = skip_empty(ray, index);
+#endif
             if index >= ray.count {
                 break;
             }
@@ -143,7 +150,11 @@ fn traverse(@builtin(global_invocation_id) id: vec3u) {
         s.medium = lit(s.medium, ray, s.position, s.voxel, frame.light_direction);
 #else
 #if skipping
+#if own
+        index = max(index, skip_empty(ray, index));
+#else
         index = skip_empty(ray, index);
+#endif
         if index >= ray.count {
             break;
         }

@@ -4,6 +4,7 @@
 use rayloom_gpu::{Gpu, GpuOptions, Hidden};
 use rayloom_network::{Level, Network, Outcome, Report, Request, Sinks};
 use rayloom_tests::{Picture, Workbench, root, types};
+use serde_json::json;
 
 const SIZE: [u32; 2] = [64, 64];
 
@@ -192,4 +193,30 @@ fn samples_are_counted() {
     assert_eq!(count("rays"), hits);
     assert!(count("samples").abs_diff(samples) <= 4, "{} {samples}", count("samples"));
     assert!(count("contributing") > 0 && count("contributing") < count("samples"));
+}
+
+/// A shading snippet that spends some rounds of a loop.
+fn looping(head: &str) -> serde_json::Value {
+    json!(format!(
+        "//! slot: shading\nfn shade(medium: vec4f, surface: Surface) -> vec4f {{\n    var rounds = 0.0;\n    {head} {{\n        rounds += 1.0;\n    }}\n    return medium * (rounds / 100.0);\n}}\n"
+    ))
+}
+
+#[test]
+fn a_loop_without_an_end_is_told_and_can_be_mended() {
+    let mut bench = Workbench::new(scene());
+    let mut errors = |text: serde_json::Value| {
+        bench.put("traversal.shading.text", text);
+        let watch = vec![("traversal", "image").into()];
+        let report = bench.evaluate(&Request { watch, size: Some([16, 16]), ..Request::default() });
+        report.failed.get("traversal").cloned()
+    };
+    assert_eq!(errors(looping("for (var i = 0u; i < 100u; i++)")), None);
+    for endless in ["loop", "while rounds >= 0.0", "for (;;)"] {
+        let error = errors(looping(endless)).unwrap_or_else(|| panic!("`{endless}` was taken"));
+        let mark = error.marks.first().expect("a mark");
+        assert_eq!((mark.source.as_str(), mark.line, mark.column), ("edited/shading.wgsl", 4, 5), "{error}");
+        assert!(error.message.contains("did not end"), "{error}");
+    }
+    assert_eq!(errors(looping("while rounds < 100.0")), None);
 }

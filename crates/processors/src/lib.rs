@@ -34,7 +34,9 @@ pub use explain::{Explanation, Ledger, Role};
 pub use image_file::{ImageFileError, Picture, read_picture, write_exr, write_npy, write_picture, write_png};
 pub use image_pass::{Bind, ImagePass};
 pub use process::{PlainProcess, Process, Runner, Work};
-pub use ray_traversal::{Trace, TraceOutput, TraceSample, snippet_library, user_folder};
+pub use ray_traversal::{
+    Trace, TraceOutput, TraceSample, reload_snippets, save_user_snippet, snippet_library, snippet_revision, user_folder,
+};
 pub use registry::{processors, registry};
 pub use view::View;
 pub use volume_texture::{GpuVolume, Storage};

@@ -16,7 +16,7 @@ pub fn processors() -> Vec<Arc<dyn Process>> {
         PlainProcess::shared(cube_proxy::declaration(), cube_proxy::process),
         PlainProcess::shared(clipped_proxy::declaration(), clipped_proxy::process),
         PlainProcess::shared(entry_exit_points::declaration(), entry_exit_points::process),
-        Arc::new(ray_traversal::RayTraversal::new(snippet_library().0)),
+        Arc::new(ray_traversal::RayTraversal::new()),
         PlainProcess::shared(slice_view::declaration(), slice_view::process),
         PlainProcess::shared(background::declaration(), background::process),
         PlainProcess::shared(compositor::declaration(), compositor::process),

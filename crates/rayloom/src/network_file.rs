@@ -37,7 +37,7 @@ pub fn open(file: &Path, settings: &[Setting]) -> Result<Network, Failure> {
 /// As [`open`], or a preset that does not exist or that the network refuses.
 pub fn open_with(file: &Path, preset: Option<&str>, settings: &[Setting]) -> Result<Network, Failure> {
     let (mut network, warnings) = load(file)?;
-    for problem in snippet_library().1 {
+    for problem in snippet_library().1.iter() {
         eprintln!("warning: {problem}");
     }
     for warning in warnings {

@@ -230,7 +230,14 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
     fn is_tab_closable(&self, tiles: &egui_tiles::Tiles<Pane>, tile: egui_tiles::TileId) -> bool {
         matches!(
             tiles.get_pane(&tile),
-            Some(Pane::Inspector(_) | Pane::Accuracy | Pane::RayProbe | Pane::Budget | Pane::Application)
+            Some(
+                Pane::Inspector(_)
+                    | Pane::Accuracy
+                    | Pane::RayProbe
+                    | Pane::Shader(_)
+                    | Pane::Budget
+                    | Pane::Application
+            )
         )
     }
 

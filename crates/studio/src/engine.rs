@@ -9,10 +9,11 @@ use rayloom_gpu::{Gpu, GpuError};
 use rayloom_network::{
     Address, Backend, Evaluator, Facts, Job, Level, Network, Outputs, ProcessError, Report, Request, Run,
 };
-use rayloom_processors::{Data, Image, Runner, Trace};
+use rayloom_processors::{Data, Image, Runner, Trace, snippet_revision};
 use rayloom_volume::Progress;
+use rayloom_wgsl::Validated;
 
-use crate::probe::Ray;
+use crate::probe::{Ray, TRAVERSAL};
 
 /// What to evaluate. Only the newest order counts.
 struct Order {
@@ -48,6 +49,8 @@ pub struct Results {
     pub outputs: BTreeMap<Address, Data>,
     /// What arrives at the canvases.
     pub canvases: BTreeMap<String, Arc<Image>>,
+    /// The last good shader of every ray traversal.
+    pub shaders: BTreeMap<String, Arc<Validated>>,
     /// The ray that was asked for, in the picture as it is now.
     pub trace: Option<Arc<Result<Trace, ProcessError>>>,
 }
@@ -208,6 +211,7 @@ impl Backend for Telling {
 
 fn work(mut backend: Telling, orders: &Receiver<Order>, wake: &impl Fn()) {
     let mut evaluator = Evaluator::new();
+    let mut snippets = snippet_revision();
     while let Ok(mut order) = orders.recv() {
         // A burst of edits is one evaluation: of the newest.
         while let Ok(mut newer) = orders.try_recv() {
@@ -217,15 +221,31 @@ fn work(mut backend: Telling, orders: &Receiver<Order>, wake: &impl Fn()) {
         for (id, reason) in order.refresh.drain(..) {
             evaluator.invalidate(&id, Level::Result, reason);
         }
+        if snippets != snippet_revision() {
+            snippets = snippet_revision();
+            for id in traversals(&order.network) {
+                evaluator.invalidate(id, Level::Shader, "your snippets were read anew");
+            }
+        }
         let report = evaluator.evaluate(&order.network, &mut backend, &order.request);
         backend.runner.tidy(|id| order.network.processor(id).is_some());
         let mut results = Box::new(collect(&order, report, &evaluator));
+        results.shaders = shaders(&order.network, &mut backend.runner);
         results.trace = order.ray.as_ref().map(|ray| Arc::new(follow(&mut backend.runner, &results.outputs, ray)));
         if backend.news.send(News::Results(results)).is_err() {
             return;
         }
         wake();
     }
+}
+
+/// The ray traversals of a network.
+fn traversals(network: &Network) -> impl Iterator<Item = &str> {
+    network.processors().filter(|processor| processor.type_id() == TRAVERSAL).map(|processor| processor.id())
+}
+
+fn shaders(network: &Network, runner: &mut Runner) -> BTreeMap<String, Arc<Validated>> {
+    traversals(network).filter_map(|id| Some((id.to_owned(), runner.shader(id)?))).collect()
 }
 
 /// Follows a ray of the picture that a traversal has on any of its outports.

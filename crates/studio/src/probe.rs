@@ -8,7 +8,7 @@ use crate::panels::Pane;
 use crate::session::Session;
 
 /// Id of the type of the processors that walk rays.
-const TRAVERSAL: &str = "ray_traversal";
+pub const TRAVERSAL: &str = "ray_traversal";
 
 /// A ray of a ray traversal.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,10 +7,10 @@ use crate::TRAVERSAL;
 use crate::choice::{Choice, Features};
 use crate::declaration::{Declaration, Parameter};
 use crate::diagnostic::{Diagnostic, Origin, SourceMap};
-use crate::lexer::{line_and_column, module_scope_names};
+use crate::lexer::{line_and_column, module_scope_names, tokens};
 use crate::library::{Library, SourceKind};
 use crate::limits;
-use crate::rename::Renaming;
+use crate::rename::{Renaming, loops};
 use crate::slot::{Slot, contract, signature};
 
 const MAX_INCLUDE_DEPTH: usize = 16;
@@ -30,6 +30,8 @@ pub struct Assembled {
     /// Parameters of the snippets that are in the text: (field of the uniform struct, place, parameter).
     /// The place is the slot's id, or `out1`, `out2`, `out3` for compositing.
     pub parameters: Vec<(String, String, Parameter)>,
+    /// File, line and column of every loop that counts its rounds: the one with number n is at n - 1.
+    pub loops: Vec<(Arc<str>, u32, u32)>,
 }
 
 /// Assembles the ray traversal for a choice.
@@ -38,10 +40,13 @@ pub struct Assembled {
 /// A refused combination (as a diagnostic without line), a snippet that does not keep its slot's contract,
 /// an unknown or cyclic include, a malformed directive: each with file and line.
 pub fn assemble(library: &Library, choice: &Choice) -> Result<Assembled, Vec<Diagnostic>> {
-    let features = choice.check(library).map_err(|problems| {
+    let mut features = choice.check(library).map_err(|problems| {
         problems.into_iter().map(|problem| Diagnostic::new("ray traversal", 0, 0, problem.message)).collect::<Vec<_>>()
     })?;
     let places = places(library, choice, &features);
+    if places.iter().any(|place| place.is_own) {
+        features.flags.insert("own".to_owned());
+    }
     let skeleton = library.source(TRAVERSAL).map_or("", |source| &source.text);
     let problems: Vec<_> = places
         .iter()
@@ -65,9 +70,10 @@ pub fn assemble(library: &Library, choice: &Choice) -> Result<Assembled, Vec<Dia
         open: Vec::new(),
         text: String::new(),
         map: SourceMap::default(),
+        loops: Vec::new(),
     };
     writer.file(TRAVERSAL, None).map_err(|problem| vec![problem])?;
-    let Writer { text, map, .. } = writer;
+    let Writer { text, map, loops, .. } = writer;
     let parameters = places
         .iter()
         .flat_map(|place| {
@@ -78,7 +84,7 @@ pub fn assemble(library: &Library, choice: &Choice) -> Result<Assembled, Vec<Dia
                 .map(|parameter| (place.field(parameter), place.prefix.clone(), parameter.clone()))
         })
         .collect();
-    Ok(Assembled { text, map, features, parameters })
+    Ok(Assembled { text, map, features, parameters, loops })
 }
 
 /// A snippet in its place: the slot, or the output for compositing.
@@ -89,6 +95,8 @@ struct Place {
     path: Arc<str>,
     text: Arc<str>,
     declaration: Arc<Declaration>,
+    /// Whether it is not built in, but a user's.
+    is_own: bool,
 }
 
 fn places(library: &Library, choice: &Choice, features: &Features) -> Vec<Place> {
@@ -105,13 +113,15 @@ fn places(library: &Library, choice: &Choice, features: &Features) -> Vec<Place>
     slots
         .chain(outputs)
         .filter_map(|(slot, output, path)| {
+            let source = library.source(path)?;
             Some(Place {
                 slot,
                 output,
                 prefix: output.map_or_else(|| slot.id().to_owned(), |index| format!("out{}", index + 1)),
                 path: path.clone(),
-                text: library.source(path)?.text.clone(),
+                text: source.text.clone(),
                 declaration: library.declaration(path)?.clone(),
+                is_own: source.kind != SourceKind::BuiltIn,
             })
         })
         .collect()
@@ -192,6 +202,7 @@ struct Writer<'a> {
     open: Vec<Arc<str>>,
     text: String,
     map: SourceMap,
+    loops: Vec<(Arc<str>, u32, u32)>,
 }
 
 /// A line of a file on its way out: its number in the file, its text, and its column shifts.
@@ -231,7 +242,9 @@ impl Writer<'_> {
             return Err(problem);
         }
         self.open.push(source.path.clone());
-        let result = self.lines(&source.path, lines(&source.text, &Renaming::default()), None);
+        let own = source.kind != SourceKind::BuiltIn;
+        let renaming = self.bounded(Renaming::default(), &source.path, &source.text, own);
+        let result = self.lines(&source.path, lines(&source.text, &renaming), None);
         self.open.pop();
         result
     }
@@ -240,10 +253,24 @@ impl Writer<'_> {
         let keep = place.kept_names(self.skeleton);
         let parameters: Vec<_> = place.declaration.parameters.iter().map(|parameter| parameter.name.clone()).collect();
         let renaming = Renaming::scoped(&place.text, &place.prefix, &keep, &parameters);
+        let renaming = self.bounded(renaming, &place.path, &place.text, place.is_own);
         self.open.push(place.path.clone());
         let result = self.lines(&place.path, lines(&place.text, &renaming), place.output);
         self.open.pop();
         result
+    }
+
+    /// Bounds the loops of a text that is a user's own.
+    fn bounded(&mut self, renaming: Renaming, file: &Arc<str>, text: &str, own: bool) -> Renaming {
+        if !own {
+            return renaming;
+        }
+        let first = self.loops.len() as u32 + 1;
+        self.loops.extend(loops(&tokens(text)).into_iter().map(|(word, _)| {
+            let (line, column) = line_and_column(text, word.start);
+            (file.clone(), line, column)
+        }));
+        renaming.bounding_loops(first)
     }
 
     /// Writes lines, obeying directives.

@@ -25,6 +25,7 @@ mod assemble;
 mod choice;
 mod declaration;
 mod diagnostic;
+mod highlight;
 mod interface;
 mod lexer;
 mod library;
@@ -40,6 +41,7 @@ pub use declaration::{
     parse_declaration,
 };
 pub use diagnostic::{Diagnostic, Origin, SourceMap};
+pub use highlight::{Highlight, highlight};
 pub use interface::{Field, Interface, ParameterLayout};
 pub use library::{Library, Source, SourceKind};
 pub use slot::{Prototype, Slot, contract};

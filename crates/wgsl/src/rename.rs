@@ -12,6 +12,8 @@ pub(crate) struct Renaming {
     names: BTreeMap<String, String>,
     /// Parameter -> field of the uniform struct, for `params.NAME`.
     parameters: BTreeMap<String, String>,
+    /// Number of the first loop, when loops are to be counted.
+    first_loop: Option<u32>,
 }
 
 /// One line after renaming, with the column shifts of `Origin::renames`.
@@ -30,7 +32,13 @@ impl Renaming {
         Self {
             names: private.map(|name| (name.to_owned(), format!("{prefix}_{name}"))).collect(),
             parameters: parameters.iter().map(|name| (name.clone(), format!("{prefix}_{name}"))).collect(),
+            first_loop: None,
         }
+    }
+
+    /// Lets every loop count its rounds, and leave when there are too many; loops are numbered from `first`.
+    pub fn bounding_loops(self, first: u32) -> Self {
+        Self { first_loop: Some(first), ..self }
     }
 
     /// Identifiers that start with `OUT_` belong to one output.
@@ -46,7 +54,7 @@ impl Renaming {
     pub fn apply(&self, text: &str) -> Vec<Renamed> {
         let list = tokens(text);
         let fields = struct_fields(&list);
-        let mut edits: Vec<(usize, usize, &str)> = Vec::new();
+        let mut edits: Vec<(usize, usize, String)> = Vec::new();
         for (index, token) in list.iter().enumerate() {
             if token.kind != TokenKind::Identifier || fields.contains(&token.start) {
                 continue;
@@ -59,11 +67,40 @@ impl Renaming {
                 false => self.names.get(token.text),
             };
             if let Some(new) = new {
-                edits.push((token.start, token.text.len(), new));
+                edits.push((token.start, token.text.len(), new.clone()));
             }
         }
+        for ((word, body), number) in
+            loops(&list).into_iter().zip(self.first_loop.into_iter().flat_map(|first| first..))
+        {
+            edits.push((word.start, word.text.len(), format!("var rounds_of_loop_{number} = 0u; {}", word.text)));
+            let leave = format!("{{ if loop_is_over(&rounds_of_loop_{number}, {number}u) {{ break; }}");
+            edits.push((body.start, body.text.len(), leave));
+        }
+        edits.sort_by_key(|edit| edit.0);
         split_lines(text, &edits)
     }
+}
+
+/// The loops of a text: the word that begins each, and the brace that opens its body.
+pub(crate) fn loops<'a>(list: &[Token<'a>]) -> Vec<(Token<'a>, Token<'a>)> {
+    let mut found = Vec::new();
+    for (index, token) in list.iter().enumerate() {
+        if !["loop", "while", "for"].contains(&token.text) || index > 0 && list[index - 1].text == "." {
+            continue;
+        }
+        let mut depth = 0i32;
+        let body = list[index + 1..].iter().find(|next| {
+            depth += match next.text {
+                "(" => 1,
+                ")" => -1,
+                _ => 0,
+            };
+            depth <= 0 && next.text == "{"
+        });
+        found.extend(body.map(|body| (*token, *body)));
+    }
+    found
 }
 
 /// Byte offsets of the field names declared in struct bodies; a field is no module-scope name even if it is spelled like one.
@@ -81,7 +118,7 @@ fn struct_fields(list: &[Token<'_>]) -> Vec<usize> {
     fields
 }
 
-fn split_lines(text: &str, edits: &[(usize, usize, &str)]) -> Vec<Renamed> {
+fn split_lines(text: &str, edits: &[(usize, usize, String)]) -> Vec<Renamed> {
     let mut lines = Vec::new();
     let mut start = 0;
     let mut edits = edits.iter().peekable();
@@ -89,7 +126,8 @@ fn split_lines(text: &str, edits: &[(usize, usize, &str)]) -> Vec<Renamed> {
         let end = start + line.len();
         let mut renamed = Renamed { text: String::with_capacity(line.len()), shifts: Vec::new() };
         let mut at = start;
-        while let Some(&&(from, length, new)) = edits.peek().filter(|edit| edit.0 < end) {
+        while let Some((from, length, new)) = edits.peek().filter(|edit| edit.0 < end) {
+            let (from, length) = (*from, *length);
             renamed.text += &text[at..from];
             let column = renamed.text.chars().count() as u32 + 1;
             renamed.shifts.push((column, new.chars().count() as u32, text[from..from + length].chars().count() as u32));

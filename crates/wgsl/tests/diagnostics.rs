@@ -308,3 +308,24 @@ fn files_that_are_no_text_are_named_with_the_place() {
     assert_eq!((problem.line, problem.column), (2, 12));
     assert!(problem.to_string().contains("broken.wgsl:2:12: the snippet is no UTF-8 text"), "{problem}");
 }
+
+#[test]
+fn loops_of_a_users_own_are_bounded_and_keep_their_places() {
+    let mut library = Library::built_in().expect("built-in snippets");
+    let text = "//! slot: shading\nfn shade(medium: vec4f, surface: Surface) -> vec4f {\n    var n = 0u;\n    loop { n += 1u; while n > 3u { n -= 1u; } }\n    for (var i = 0u; i < vec2u(4u).x; i++) { n += i; }\n    return medium * f32(n);\n}\n";
+    let edited = library.add_edited("shading", Slot::Shading, text).expect("a declaration");
+    let mut choice = choice(&library, &[(Slot::Classification, "transfer_function")], "dvr");
+    choice.snippets.insert(Slot::Shading, edited.clone());
+    let assembled = assemble(&library, &choice).expect("assembled");
+    let places: Vec<_> = assembled.loops.iter().map(|(file, line, column)| (&**file, *line, *column)).collect();
+    assert_eq!(places, [("edited/shading.wgsl", 4, 5), ("edited/shading.wgsl", 4, 21), ("edited/shading.wgsl", 5, 5)]);
+    assert_eq!(assembled.text.matches("if loop_is_over(&rounds_of_loop_").count(), 3);
+    validate(&library, assembled).expect("valid");
+
+    // An error behind a loop on the same line is still told at its own column.
+    let broken = text.replace("n -= 1u; } }", "n -= 1u; } m }");
+    let edited = library.add_edited("shading", Slot::Shading, &broken).expect("a declaration");
+    choice.snippets.insert(Slot::Shading, edited);
+    let problem = validate(&library, assemble(&library, &choice).expect("assembled")).expect_err("broken");
+    assert_eq!((problem.line, problem.column), (4, 48), "{problem}");
+}

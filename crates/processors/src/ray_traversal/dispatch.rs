@@ -7,13 +7,14 @@ use rayloom_gpu::wgpu::{self, TextureFormat};
 use rayloom_gpu::{Gpu, GpuError, Texture};
 use rayloom_network::{Job, ProcessError};
 use rayloom_volume::ValueRange;
-use rayloom_wgsl::Validated;
+use rayloom_wgsl::{Diagnostic, Validated};
 use serde_json::{Map, json};
 
 use super::choose::Plan;
 use super::explain::purpose;
 use super::frame::{Frame, reference_length};
 use super::memory::Memory;
+use super::snippets::shader_error;
 use super::{Inputs, OUTPORTS, parameters, tables};
 use crate::explain::{Explanation, Role, texture};
 use crate::{Context, Data};
@@ -84,14 +85,17 @@ impl Pass<'_> {
         let targets = self.targets(context)?;
         let counters = self.counters(&context.gpu)?;
         let samples = self.samples(context)?;
+        // The number of a loop of the user's that ran for too long.
+        let overrun = self.reads("own").then(|| context.gpu.storage("overrun", &[0u32; 4])).transpose()?;
         let frame = self.frame(&context.gpu)?;
         let bindings = &self.shader.interface.bindings;
         let mut resources = bindings
             .iter()
             .map(|field| {
-                let resource = match (field.name.as_str(), &counters, &samples) {
-                    ("counters", Some(counters), _) => Resource::Buffer(counters.clone()),
-                    ("sample_map", _, Some(samples)) => Resource::Texture(samples.clone()),
+                let resource = match (field.name.as_str(), &counters, &samples, &overrun) {
+                    ("counters", Some(counters), ..) => Resource::Buffer(counters.clone()),
+                    ("overrun", _, _, Some(overrun)) => Resource::Buffer(overrun.clone()),
+                    ("sample_map", _, Some(samples), _) => Resource::Texture(samples.clone()),
                     (name, ..) => self.resource(name, context, memory, &frame, &targets)?,
                 };
                 context.ledger.record(|| resource.explanation(&field.name));
@@ -104,10 +108,32 @@ impl Pass<'_> {
         if context.ledger.is_enabled() {
             context.ledger.extend(self.explanations()?);
         }
+        if let Some(overrun) = overrun.filter(|_| bindings.iter().any(|field| field.name == "overrun")) {
+            self.check_loops(&context.gpu, &overrun)?;
+        }
         let counted = counters.map(|counters| counts(&context.gpu, &counters)).transpose()?;
         // Targets go back to the pool when nobody shows them any more.
         resources.retain(|(name, _)| name != "counters" && name != "sample_map" && !name.starts_with("out"));
         Ok(Drawn { targets, samples, inputs: resources, counted })
+    }
+
+    /// Fails when a loop of the user's own snippets did not end. Waits for the device, which is why it is asked of no others.
+    fn check_loops(&self, gpu: &Gpu, overrun: &wgpu::Buffer) -> Result<(), ProcessError> {
+        let bytes = gpu.read_buffer(overrun)?;
+        let number = u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]);
+        let assembled = &self.shader.assembled;
+        let Some((file, line, column)) = (number as usize).checked_sub(1).and_then(|at| assembled.loops.get(at)) else {
+            return Ok(());
+        };
+        Err(shader_error(vec![Diagnostic {
+            file: file.to_string(),
+            line: *line,
+            column: *column,
+            message: "this loop did not end: it took more than 32768 rounds at once, or all loops of a ray more than 1048576; \
+                      give it a bound that it reaches"
+                .into(),
+            excerpt: String::new(),
+        }]))
     }
 
     /// Colour and depth textures of the outputs in use.

@@ -14,7 +14,7 @@ use super::snippets::shader_error;
 use super::splines::Splines;
 use super::trace::LastRun;
 
-/// A shader, for a choice and the edited texts in it.
+/// A shader, for a choice and the texts in it that are not built in.
 pub(super) type ShaderMemo = Memo<(Choice, Vec<Arc<str>>), Arc<Validated>>;
 
 /// Everything kept.
@@ -46,6 +46,11 @@ impl Memory {
         Ok(shader)
     }
 
+    /// The last good shader.
+    pub(super) fn last_shader(&self) -> Option<Arc<Validated>> {
+        self.last.clone()
+    }
+
     /// The shader of the last run.
     pub fn assembled(&self) -> Option<&Assembled> {
         self.last.as_ref().map(|shader| &shader.assembled)
@@ -61,10 +66,10 @@ pub(super) fn shader(
     library: &Library,
     choice: &Choice,
 ) -> Result<Arc<Validated>, ProcessError> {
-    // A path stands for its text, but for edited ones.
-    let edited =
-        choice.snippets.values().chain(choice.outputs.iter().flatten()).filter(|path| path.starts_with("edited/"));
-    let texts = edited.filter_map(|path| Some(library.source(path)?.text.clone())).collect();
+    // A path stands for its text where that cannot change.
+    let paths = choice.snippets.values().chain(choice.outputs.iter().flatten());
+    let texts = paths.filter(|path| path.starts_with("edited/") || path.starts_with("user/"));
+    let texts = texts.filter_map(|path| Some(library.source(path)?.text.clone())).collect();
     memo.get((choice.clone(), texts), || {
         let assembled = assemble(library, choice).map_err(shader_error)?;
         validate(library, assembled).map(Arc::new).map_err(|problem| shader_error(vec![*problem]))

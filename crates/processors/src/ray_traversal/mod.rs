@@ -21,14 +21,14 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use rayloom_network::{Declaration, ImageKind, Job, Outputs, ProcessError, ProcessorType, Properties, PropertyDecl};
-use rayloom_wgsl::{Assembled, Library};
+use rayloom_wgsl::{Assembled, Validated};
 
 use crate::process::{Process, Runner};
 use memory::Memory;
 
 use crate::{Context, Data, Image, JobData, View, VolumeData};
 
-pub use snippets::{snippet_library, user_folder};
+pub use snippets::{reload_snippets, save_user_snippet, snippet_library, snippet_revision, user_folder};
 pub use trace::{Trace, TraceOutput, TraceSample};
 
 /// Outports, in the order of the shader's outputs.
@@ -39,13 +39,13 @@ const SAMPLES: &str = "samples";
 /// The processor type.
 pub struct RayTraversal {
     declaration: Declaration,
-    library: Arc<Library>,
 }
 
 impl RayTraversal {
-    /// A ray traversal that can choose from a library of snippets.
-    pub fn new(library: Arc<Library>) -> Self {
-        Self { declaration: declare::declaration(&library), library }
+    /// A ray traversal that chooses from the built-in and the user's own snippets.
+    #[expect(clippy::new_without_default, reason = "there is one of them")]
+    pub fn new() -> Self {
+        Self { declaration: declare::declaration(&snippet_library().0) }
     }
 }
 
@@ -55,11 +55,11 @@ impl ProcessorType for RayTraversal {
     }
 
     fn snippet_properties(&self, current: &Properties) -> Vec<PropertyDecl> {
-        parameters::declarations(&self.library, current)
+        parameters::declarations(&snippet_library().0, current)
     }
 
     fn idle_properties(&self, current: &Properties, used: &BTreeSet<String>) -> BTreeSet<String> {
-        idle::idle(&self.library, current, used)
+        idle::idle(&snippet_library().0, current, used)
     }
 }
 
@@ -76,6 +76,11 @@ impl Runner {
     /// The shader that the ray traversal with this id used in its last run.
     pub fn assembled(&mut self, id: &str) -> Option<&Assembled> {
         self.context.state::<Memory>(id).assembled()
+    }
+
+    /// The same to keep: the last good shader where the last run failed.
+    pub fn shader(&mut self, id: &str) -> Option<Arc<Validated>> {
+        self.context.state::<Memory>(id).last_shader()
     }
 }
 
@@ -145,7 +150,7 @@ impl RayTraversal {
         memory.last_run = None;
         let inputs = Inputs::of(job)?;
         let mut notes = Vec::new();
-        let plan = choose::plan(&self.library, context, job, &inputs, memory, &mut notes)?;
+        let plan = choose::plan(&snippet_library().0, context, job, &inputs, memory, &mut notes)?;
         let shader = memory.shader(&plan.library, &plan.choice)?;
         let pass = dispatch::Pass { job, inputs: &inputs, plan: &plan, shader: &shader };
         let drawn = pass.run(context, memory)?;

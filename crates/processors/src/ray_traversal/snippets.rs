@@ -1,31 +1,87 @@
 //! The snippets that a traversal can choose from.
 
 use std::path::PathBuf;
-use std::sync::{Arc, OnceLock};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, PoisonError, RwLock};
 
 use rayloom_network::{ProcessError, Properties};
-use rayloom_wgsl::{Diagnostic, Library, Slot};
+use rayloom_wgsl::{Diagnostic, Library, Slot, parse_declaration};
 
-/// The folder of the user's own snippets: `$RAYLOOM_SNIPPETS`, or `rayloom/snippets` in the configuration folder.
+/// The folder of the user's own snippets, if there is one: `$RAYLOOM_SNIPPETS`, or `rayloom/snippets` in the configuration folder.
 pub fn user_folder() -> Option<PathBuf> {
+    let named = std::env::var_os("RAYLOOM_SNIPPETS").is_some();
+    folder().filter(|folder| named || folder.is_dir())
+}
+
+/// Where that folder is or would be.
+fn folder() -> Option<PathBuf> {
     if let Some(folder) = std::env::var_os("RAYLOOM_SNIPPETS") {
         return Some(folder.into());
     }
     let config = std::env::var_os("XDG_CONFIG_HOME").map(PathBuf::from);
     let config = config.or_else(|| Some(PathBuf::from(std::env::var_os("HOME")?).join(".config")))?;
-    Some(config.join("rayloom").join("snippets")).filter(|folder| folder.is_dir())
+    Some(config.join("rayloom").join("snippets"))
 }
 
-/// The built-in snippets and those of the user's folder, with what is wrong with the latter. Read once a program run.
-pub fn snippet_library() -> (Arc<Library>, &'static [Diagnostic]) {
-    static LIBRARY: OnceLock<(Arc<Library>, Vec<Diagnostic>)> = OnceLock::new();
-    let (library, problems) = LIBRARY.get_or_init(|| {
-        // Embedded at build time; every one is assembled and validated by the tests.
-        let mut library = Library::built_in().expect("the built-in snippets declare themselves well");
-        let problems = user_folder().map(|folder| library.add_folder(&folder)).unwrap_or_default();
-        (Arc::new(library), problems)
-    });
-    (library.clone(), problems)
+/// Snippets with what is wrong with the user's own.
+type Loaded = (Arc<Library>, Arc<[Diagnostic]>);
+
+static LIBRARY: RwLock<Option<Loaded>> = RwLock::new(None);
+static REVISION: AtomicU64 = AtomicU64::new(0);
+
+/// The built-in snippets and those of the user's folder, with what is wrong with the latter, as they were read last.
+pub fn snippet_library() -> Loaded {
+    let known = LIBRARY.read().unwrap_or_else(PoisonError::into_inner).clone();
+    known.unwrap_or_else(reload_snippets)
+}
+
+/// Reads the user's folder anew.
+pub fn reload_snippets() -> Loaded {
+    // Embedded at build time; every one is assembled and validated by the tests.
+    let mut library = Library::built_in().expect("the built-in snippets declare themselves well");
+    let problems = user_folder().map(|folder| library.add_folder(&folder)).unwrap_or_default();
+    let loaded: Loaded = (Arc::new(library), problems.into());
+    *LIBRARY.write().unwrap_or_else(PoisonError::into_inner) = Some(loaded.clone());
+    REVISION.fetch_add(1, Ordering::Relaxed);
+    loaded
+}
+
+/// A number that grows whenever the user's folder is read.
+pub fn snippet_revision() -> u64 {
+    REVISION.load(Ordering::Relaxed)
+}
+
+/// Writes a snippet into the user's folder and reads that anew; the name becomes the snippet's id. Returns the file.
+///
+/// # Errors
+/// A name that cannot be an id, or is another snippet's; a text that declares no snippet of this slot; the file cannot be
+/// written: as a sentence.
+pub fn save_user_snippet(slot: Slot, name: &str, text: &str) -> Result<PathBuf, String> {
+    if name.is_empty() || !name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') {
+        return Err(format!("`{name}` cannot be the name of a snippet; use letters, digits and underscores"));
+    }
+    let file = format!("{name}.wgsl");
+    let declared = parse_declaration(&file, text).map_err(|problem| problem.to_string())?.slot;
+    if declared != slot {
+        return Err(format!(
+            "the text declares slot `{declared}`, but it was edited as `{slot}`; change its first line"
+        ));
+    }
+    let mut trial = (*snippet_library().0).clone();
+    let taken = trial.declaration(&format!("user/{file}")).map(|known| known.slot).filter(|known| *known != slot);
+    if let Some(other) = taken {
+        return Err(format!("`{name}` is already a {other} snippet of yours; choose another name"));
+    }
+    trial.add_user(&file, text).map_err(|problem| problem.to_string())?;
+    let folder = folder().ok_or("there is no place for snippets of your own; name a folder in RAYLOOM_SNIPPETS")?;
+    let path = folder.join(&file);
+    let partial = folder.join(format!("{file}.part"));
+    let written = std::fs::create_dir_all(&folder)
+        .and_then(|()| std::fs::write(&partial, text))
+        .and_then(|()| std::fs::rename(&partial, &path));
+    written.map_err(|error| format!("{} cannot be written: {error}", path.display()))?;
+    reload_snippets();
+    Ok(path)
 }
 
 /// A slot of a traversal as the user sees it: once for every output in the case of compositing.

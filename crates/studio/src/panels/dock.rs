@@ -4,8 +4,8 @@ use egui_tiles::{Container, LinearDir, Tile, TileId, Tiles, Tree};
 
 use super::Pane;
 
-/// Opens a pane, or brings it to the front if it is open. Pictures lie side by side, beside the canvas, everything else in
-/// tabs with the properties.
+/// Opens a pane, or brings it to the front if it is open. Pictures lie side by side, beside the canvas, shaders in tabs
+/// with the network, everything else in tabs with the properties.
 pub fn open(tree: &mut Tree<Pane>, pane: Pane) {
     if let Some(known) = tree.tiles.find_pane(&pane) {
         tree.set_visible(known, true);
@@ -21,6 +21,7 @@ pub fn open(tree: &mut Tree<Pane>, pane: Pane) {
                     first(|pane| matches!(pane, Pane::Canvas)).map(|canvas| (canvas, Some(LinearDir::Horizontal)))
                 })
         }
+        Pane::Shader(_) => first(|pane| matches!(pane, Pane::Network)).map(|network| (network, None)),
         _ => first(|pane| matches!(pane, Pane::Properties)).map(|properties| (properties, None)),
     };
     let new = tree.tiles.insert_pane(pane);

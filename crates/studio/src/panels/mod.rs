@@ -12,6 +12,7 @@ mod probe;
 mod processors;
 pub(crate) mod properties;
 mod ray_probe;
+mod shader_editor;
 
 use egui_tiles::{Linear, LinearDir, TileId, Tiles, Tree};
 use rayloom_network::Address;
@@ -50,6 +51,9 @@ pub enum Pane {
     Application,
     /// What a traversal meets along the ray of a pixel.
     RayProbe,
+    /// The text of a slot, by the property that holds it.
+    #[serde(skip)]
+    Shader(Address),
     /// What is on an outport, kept in sight.
     #[serde(skip)]
     Inspector(Address),
@@ -73,6 +77,10 @@ impl Pane {
             Self::Budget => "Frame budget".into(),
             Self::Application => "Application".into(),
             Self::RayProbe => "Ray probe".into(),
+            Self::Shader(text) => {
+                let slot = text.item.split('.').next().unwrap_or_default();
+                format!("{} of {}", slot, text.processor)
+            }
             Self::Inspector(outport) => outport.to_string(),
         }
     }
@@ -87,6 +95,7 @@ pub struct Panels {
     accuracy: accuracy::AccuracyPanel,
     inspectors: inspector::Inspectors,
     ray_probe: ray_probe::RayProbePanel,
+    shader_editors: shader_editor::ShaderEditors,
     properties: properties::PropertiesPanel,
     application: application::ApplicationPanel,
     visualization: Visualization,
@@ -109,6 +118,7 @@ impl Panels {
             Pane::Budget => budget::show(ui, session),
             Pane::Application => self.application.show(ui, session),
             Pane::RayProbe => self.ray_probe.show(ui, session),
+            Pane::Shader(text) => self.shader_editors.show(ui, session, text),
             Pane::Inspector(outport) => self.inspectors.show(ui, session, outport),
         }
     }

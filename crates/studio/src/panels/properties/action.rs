@@ -2,6 +2,7 @@
 
 use rayloom_network::{Address, EditError, Network, Value};
 
+use crate::panels::Pane;
 use crate::session::{Session, Severity};
 use crate::visualization::Change;
 use crate::wiring;
@@ -24,6 +25,8 @@ pub(super) enum Action {
     Select(String),
     /// Changed what visualization mode shows.
     Author(Change),
+    /// Asked for a pane.
+    Open(Pane),
     /// Something to tell.
     Tell(Severity, String),
 }
@@ -74,6 +77,7 @@ fn carry_out(session: &mut Session, action: Action) {
         }
         Action::Select(id) => session.selection = [id].into(),
         Action::Author(change) => session.author(change),
+        Action::Open(pane) => session.to_open.push(pane),
         Action::Tell(severity, text) => session.tell(severity, text),
     }
 }

@@ -1,6 +1,6 @@
 //! The editor of a value, by the kind of its property.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -32,8 +32,6 @@ pub(super) struct Tools {
     pub curves: BTreeMap<Address, transfer_function::State>,
     /// Editors of 2-D transfer functions.
     pub planes: BTreeMap<Address, transfer_function_2d::State>,
-    /// Shader texts that are shown.
-    pub opened: BTreeSet<Address>,
     /// Values that are edited as text.
     pub texts: BTreeMap<Address, String>,
     /// Texts that are not applied yet.
@@ -147,11 +145,10 @@ pub(super) fn show(
         (PropertyKind::TransferFunction2D, Value::TransferFunction2D(function)) => {
             transfer_function_2d::show(ui, decl, function, surroundings).map(Value::TransferFunction2D)
         }
-        (PropertyKind::Labels, Value::Labels(table)) => labels::show(ui, decl, table, surroundings).map(Value::Labels),
-        (PropertyKind::ShaderText { .. }, Value::Text(_)) => {
-            shader_text::show(ui, decl, surroundings);
-            None
+        (PropertyKind::ShaderText { .. }, Value::Text(own)) => {
+            shader_text::show(ui, decl, own, surroundings).map(Value::Text)
         }
+        (PropertyKind::Labels, Value::Labels(table)) => labels::show(ui, decl, table, surroundings).map(Value::Labels),
         // Values are checked against their declarations before they get here.
         _ => None,
     }

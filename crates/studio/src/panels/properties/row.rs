@@ -84,9 +84,6 @@ fn show(ui: &mut Ui, decl: &PropertyDecl, text: Option<&PropertyDecl>, surroundi
         let typed = super::as_text::show(ui, decl, surroundings);
         surroundings.actions.extend(typed.map(|value| Action::Set(address.clone(), value)));
         editor::complaint(ui, decl, surroundings);
-        if let Some(text) = text {
-            super::shader_text::show(ui, text, surroundings);
-        }
     });
 }
 
