@@ -327,5 +327,5 @@ fn loops_of_a_users_own_are_bounded_and_keep_their_places() {
     let edited = library.add_edited("shading", Slot::Shading, &broken).expect("a declaration");
     choice.snippets.insert(Slot::Shading, edited);
     let problem = validate(&library, assemble(&library, &choice).expect("assembled")).expect_err("broken");
-    assert_eq!((problem.line, problem.column), (4, 48), "{problem}");
+    assert_eq!((problem.line, problem.column), (4, 49), "{problem}");
 }
