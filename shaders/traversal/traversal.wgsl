@@ -40,7 +40,7 @@
 #include "traversal/types.wgsl"
 #include "traversal/bindings.wgsl"
 #parameters
-#if own
+#if bounded
 #include "traversal/bounds.wgsl"
 #endif
 #include "traversal/ray.wgsl"

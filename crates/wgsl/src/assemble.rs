@@ -47,6 +47,9 @@ pub fn assemble(library: &Library, choice: &Choice) -> Result<Assembled, Vec<Dia
     if places.iter().any(|place| place.is_own) {
         features.flags.insert("own".to_owned());
     }
+    if places.iter().any(|place| place.is_own && place.may_loop()) {
+        features.flags.insert("bounded".to_owned());
+    }
     let skeleton = library.source(TRAVERSAL).map_or("", |source| &source.text);
     let problems: Vec<_> = places
         .iter()
@@ -128,6 +131,11 @@ fn places(library: &Library, choice: &Choice, features: &Features) -> Vec<Place>
 }
 
 impl Place {
+    /// Whether there may be loops in its text, or in other files of a user's that it includes.
+    fn may_loop(&self) -> bool {
+        !loops(&tokens(&self.text)).is_empty() || self.text.contains("\"user/")
+    }
+
     fn field(&self, parameter: &Parameter) -> String {
         format!("{}_{}", self.prefix, parameter.name)
     }

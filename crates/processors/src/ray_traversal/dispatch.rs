@@ -86,7 +86,7 @@ impl Pass<'_> {
         let counters = self.counters(&context.gpu)?;
         let samples = self.samples(context)?;
         // The number of a loop of the user's that ran for too long.
-        let overrun = self.reads("own").then(|| context.gpu.storage("overrun", &[0u32; 4])).transpose()?;
+        let overrun = self.reads("bounded").then(|| context.gpu.storage("overrun", &[0u32; 4])).transpose()?;
         let frame = self.frame(&context.gpu)?;
         let bindings = &self.shader.interface.bindings;
         let mut resources = bindings
