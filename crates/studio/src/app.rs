@@ -17,6 +17,7 @@ use crate::inspect::text::number;
 use crate::palette::{Chosen, Palette};
 use crate::panels::{self, Pane, Panels};
 use crate::probe::traversals;
+use crate::screenshot::Screenshot;
 use crate::session::{Mode, Session, Severity};
 use crate::theme;
 use crate::visualization::Application;
@@ -50,6 +51,7 @@ pub struct Studio {
     pub(crate) key_list: KeyList,
     preferences: Preferences,
     pub(crate) welcome: Welcome,
+    pub(crate) screenshot: Screenshot,
     complaints: Complaints,
 }
 
@@ -101,6 +103,7 @@ impl Studio {
             key_list: KeyList::default(),
             preferences,
             welcome,
+            screenshot: Screenshot::default(),
             complaints,
         })
     }
@@ -130,6 +133,7 @@ impl Studio {
             None => {}
         }
         self.key_list.show(context);
+        self.screenshot.show(context, &mut self.session);
         self.files.show(&mut self.session, context);
     }
 

@@ -1,15 +1,15 @@
 //! Evaluation on a thread of its own, so that the window never waits for a picture.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 
 use rayloom_gpu::{Gpu, GpuError};
 use rayloom_network::{
-    Address, Backend, Evaluator, Facts, Job, Level, Network, Outputs, ProcessError, Report, Request, Run,
+    Address, Backend, Evaluator, Facts, Job, Level, Network, Outputs, ProcessError, Report, Request, Run, Sinks,
 };
-use rayloom_processors::{Data, Image, Runner, Trace, snippet_revision};
+use rayloom_processors::{Data, Image, Picture, Runner, Trace, snippet_revision};
 use rayloom_volume::Progress;
 use rayloom_wgsl::Validated;
 
@@ -25,8 +25,25 @@ struct Order {
     refresh: Vec<(String, String)>,
 }
 
+/// A picture to make besides what the window shows.
+struct Shot {
+    network: Network,
+    canvas: String,
+    size: [u32; 2],
+    answer: Sender<Result<Picture, String>>,
+}
+
+/// What the thread is told.
+enum Task {
+    Evaluate(Box<Order>),
+    Shoot(Box<Shot>),
+    Stop,
+}
+
 /// What the thread says.
 enum News {
+    /// It made a picture that is not for the window.
+    Shot,
     Running(String),
     Progress(String, Progress),
     Results(Box<Results>),
@@ -73,7 +90,7 @@ impl Results {
 
 /// The evaluation thread as the window sees it.
 pub struct Engine {
-    orders: Option<Sender<Order>>,
+    tasks: Sender<Task>,
     news: Receiver<News>,
     thread: Option<JoinHandle<()>>,
     /// Number of the last order.
@@ -99,7 +116,7 @@ impl Engine {
     pub fn start(gpu: Gpu, wake: impl Fn() + Send + Clone + 'static) -> Result<Self, GpuError> {
         let mut runner = Runner::new(gpu)?;
         runner.measure(true);
-        let (orders, inbox) = channel::<Order>();
+        let (tasks, inbox) = channel();
         let (outbox, news) = channel();
         let (progress_outbox, progress_wake) = (outbox.clone(), wake.clone());
         runner.context.progress = Some(Box::new(move |id, progress| {
@@ -109,7 +126,7 @@ impl Engine {
         }));
         let thread = std::thread::spawn(move || work(Telling { runner, news: outbox }, &inbox, &wake));
         Ok(Self {
-            orders: Some(orders),
+            tasks,
             news,
             thread: Some(thread),
             ordered: 0,
@@ -146,10 +163,13 @@ impl Engine {
             refresh: std::mem::take(&mut self.refresh),
         };
         self.last = Some((revision, request, ray));
-        if let Some(orders) = &self.orders {
-            // A thread that ended says so by its silence: `is_busy` stays true and the status line shows it.
-            let _ = orders.send(order);
-        }
+        // A thread that ended says so by its silence: `is_busy` stays true and the status line shows it.
+        let _ = self.tasks.send(Task::Evaluate(Box::new(order)));
+    }
+
+    /// Makes pictures of other sizes than the window's.
+    pub fn photographer(&self) -> Photographer {
+        Photographer(self.tasks.clone())
     }
 
     /// Takes in what has been computed since the last call; whether there is anything new.
@@ -161,6 +181,10 @@ impl Engine {
                 News::Running(id) => self.running = Some(id),
                 News::Progress(id, progress) => {
                     self.progress.insert(id, progress);
+                }
+                News::Shot => {
+                    self.progress.clear();
+                    self.running = None;
                 }
                 News::Results(results) => {
                     self.progress.clear();
@@ -181,7 +205,8 @@ impl Engine {
 
 impl Drop for Engine {
     fn drop(&mut self) {
-        self.orders = None;
+        // A thread that has ended needs not to be told.
+        let _ = self.tasks.send(Task::Stop);
         if let Some(thread) = self.thread.take() {
             // A panic of the thread was printed when it happened.
             let _ = thread.join();
@@ -209,31 +234,54 @@ impl Backend for Telling {
     }
 }
 
-fn work(mut backend: Telling, orders: &Receiver<Order>, wake: &impl Fn()) {
+/// Makes pictures of other sizes than the window's, on the evaluation's thread.
+#[derive(Clone)]
+pub struct Photographer(Sender<Task>);
+
+impl Photographer {
+    /// What a canvas of a network shows at a size in pixels: exactly what the command line renders. Waits for it, so it is not
+    /// for the window's thread.
+    ///
+    /// # Errors
+    /// Why there is no picture, for the user to read.
+    pub fn picture(&self, network: Network, canvas: &str, size: [u32; 2]) -> Result<Picture, String> {
+        let (answer, picture) = channel();
+        let shot = Shot { network, canvas: canvas.to_owned(), size, answer };
+        let gone = || "the evaluation has ended; restart the program".to_owned();
+        self.0.send(Task::Shoot(Box::new(shot))).map_err(|_| gone())?;
+        picture.recv().unwrap_or_else(|_| Err(gone()))
+    }
+}
+
+fn work(mut backend: Telling, tasks: &Receiver<Task>, wake: &impl Fn()) {
     let mut evaluator = Evaluator::new();
     let mut snippets = snippet_revision();
-    while let Ok(mut order) = orders.recv() {
-        // A burst of edits is one evaluation: of the newest.
-        while let Ok(mut newer) = orders.try_recv() {
-            newer.refresh.append(&mut order.refresh);
-            order = newer;
-        }
-        for (id, reason) in order.refresh.drain(..) {
-            evaluator.invalidate(&id, Level::Result, reason);
-        }
-        if snippets != snippet_revision() {
-            snippets = snippet_revision();
-            for id in traversals(&order.network) {
-                evaluator.invalidate(id, Level::Shader, "your snippets were read anew");
+    let mut waiting = VecDeque::new();
+    loop {
+        match waiting.pop_front().map_or_else(|| tasks.recv(), Ok) {
+            Err(_) | Ok(Task::Stop) => return,
+            Ok(Task::Shoot(shot)) => {
+                let picture = shoot(&shot, &mut evaluator, &mut backend);
+                // Whoever asked may be gone, and so may the window.
+                let _ = shot.answer.send(picture);
+                let _ = backend.news.send(News::Shot);
             }
-        }
-        let report = evaluator.evaluate(&order.network, &mut backend, &order.request);
-        backend.runner.tidy(|id| order.network.processor(id).is_some());
-        let mut results = Box::new(collect(&order, report, &evaluator));
-        results.shaders = shaders(&order.network, &mut backend.runner);
-        results.trace = order.ray.as_ref().map(|ray| Arc::new(follow(&mut backend.runner, &results.outputs, ray)));
-        if backend.news.send(News::Results(results)).is_err() {
-            return;
+            Ok(Task::Evaluate(mut order)) => {
+                // A burst of edits is one evaluation: of the newest.
+                while let Ok(task) = tasks.try_recv() {
+                    match task {
+                        Task::Evaluate(mut newer) => {
+                            newer.refresh.append(&mut order.refresh);
+                            order = newer;
+                        }
+                        other => waiting.push_back(other),
+                    }
+                }
+                let results = Box::new(evaluate(*order, &mut snippets, &mut evaluator, &mut backend));
+                if backend.news.send(News::Results(results)).is_err() {
+                    return;
+                }
+            }
         }
         wake();
     }
@@ -257,6 +305,44 @@ fn follow(runner: &mut Runner, outputs: &BTreeMap<Address, Data>, ray: &Ray) -> 
     });
     let absent = || ProcessError::new(format!("`{}` has no picture at the moment, so no rays", ray.processor));
     runner.trace(&ray.processor, ray.pixel(size.ok_or_else(absent)?))
+}
+
+fn evaluate(
+    mut order: Order,
+    snippets: &mut u64,
+    evaluator: &mut Evaluator<Telling>,
+    backend: &mut Telling,
+) -> Results {
+    for (id, reason) in order.refresh.drain(..) {
+        evaluator.invalidate(&id, Level::Result, reason);
+    }
+    let newest = snippet_revision();
+    if std::mem::replace(snippets, newest) != newest {
+        for id in traversals(&order.network) {
+            evaluator.invalidate(id, Level::Shader, "your snippets were read anew");
+        }
+    }
+    let report = evaluator.evaluate(&order.network, backend, &order.request);
+    backend.runner.tidy(|id| order.network.processor(id).is_some());
+    let mut results = collect(&order, report, evaluator);
+    results.shaders = shaders(&order.network, &mut backend.runner);
+    results.trace = order.ray.as_ref().map(|ray| Arc::new(follow(&mut backend.runner, &results.outputs, ray)));
+    results
+}
+
+/// Evaluates one canvas at a size of its own and fetches its image.
+fn shoot(shot: &Shot, evaluator: &mut Evaluator<Telling>, backend: &mut Telling) -> Result<Picture, String> {
+    let Shot { network, canvas, size, .. } = shot;
+    let sinks = Sinks::Only(vec![canvas.clone()]);
+    let report = evaluator.evaluate(network, backend, &Request { sinks, size: Some(*size), ..Request::default() });
+    match evaluator.inputs(network, canvas, "image").next() {
+        Some(Data::Image(image)) => image.read_back(&backend.runner.context).map_err(|error| error.to_string()),
+        _ => {
+            let failed = report.failed.iter().map(|(id, error)| format!("{id} failed: {error}"));
+            let causes: Vec<String> = failed.chain(report.not_ready.values().flatten().cloned()).collect();
+            Err(if causes.is_empty() { format!("`{canvas}` shows nothing") } else { causes.join("\n") })
+        }
+    }
 }
 
 fn collect(order: &Order, report: Report, evaluator: &Evaluator<Telling>) -> Results {

@@ -22,6 +22,7 @@ mod probe;
 mod quality;
 #[cfg(test)]
 mod random_edits;
+mod screenshot;
 mod session;
 mod task;
 mod theme;
@@ -35,7 +36,7 @@ pub use device::setup as wgpu_setup;
 pub use dialogs::{Choice, Chooser, Question};
 pub use display::{Display, Layer, Look};
 pub use document::Document;
-pub use engine::{Engine, Results};
+pub use engine::{Engine, Photographer, Results};
 pub use files::{Abandoned, Folders, Recovery};
 pub use inspect::{ChannelStatistics, Inspection, Judgement, Pixel, Reading, Statistics, hover, statistics};
 pub use panels::{Navigation, Pane};

@@ -5,7 +5,7 @@ mod window;
 use egui::{Event, Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use rayloom_studio::{Mode, Studio};
+use rayloom_studio::{Chooser, Mode, Options, Studio};
 
 fn press(window: &mut Harness<'_, Studio>, modifiers: Modifiers, key: Key) {
     window.key_press_modifiers(modifiers, key);
@@ -63,4 +63,37 @@ fn one_key_lists_all_keys() {
     assert!(window.query_by_label("Delete and reconnect").is_none());
     press(&mut window, Modifiers::COMMAND, Key::P);
     window::keep_picture(&mut window, "palette");
+}
+
+#[test]
+fn canvases_and_the_network_are_written_as_pictures() {
+    let folder = std::env::temp_dir().join(format!("rayloom-pictures-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let files = folder.clone();
+    let chooser = Chooser::new(move |question| {
+        let file = question.save_as.map(|name| files.join(name));
+        Box::pin(std::future::ready(file))
+    });
+    let mut window = window::studio(Options { chooser, ..window::flagship() });
+    window.run_steps(3);
+    press(&mut window, Modifiers::COMMAND, Key::E);
+    window::keep_picture(&mut window, "picture_dialog");
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    window::wait_for(&mut window, "canvas.png");
+    let picture = rayloom_processors::read_picture(&folder.join("canvas.png")).expect("a picture");
+    let shown = window.state().session.shown["canvas"];
+    assert_eq!(picture.size, shown, "the size that the canvas has in the window");
+    assert!(picture.pixels.iter().any(|pixel| pixel[3] > 0.5));
+
+    command(&mut window, "picture of the network");
+    window::wait_for(&mut window, "network.svg");
+    let drawing = std::fs::read_to_string(folder.join("network.svg")).expect("a drawing");
+    let session = &window.state().session;
+    for processor in session.network().processors() {
+        assert!(drawing.contains(&format!(">{}<", processor.id())), "{} is missing", processor.id());
+    }
+    assert_eq!(drawing.matches("<polyline").count(), session.network().connections().len());
+    std::fs::copy(folder.join("network.svg"), concat!(env!("CARGO_TARGET_TMPDIR"), "/studio/network.svg"))
+        .expect("kept");
+    std::fs::remove_dir_all(&folder).expect("removed");
 }

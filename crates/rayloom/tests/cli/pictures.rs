@@ -123,3 +123,21 @@ fn a_probed_ray_is_a_table_of_its_samples() {
     let error = rayloom(["probe", &network, "--pixel", "1,1", "--processor", "view"]).error();
     assert!(error.contains("`view` is no ray traversal; there are `traversal`"), "{error}");
 }
+
+#[test]
+fn the_studio_writes_the_very_picture_at_any_size() {
+    let (folder, network) = network(TRAVERSAL);
+    let (file, other) = (within(&folder, "render.png"), within(&folder, "studio.png"));
+    rayloom(["render", &network, "--size", "97x61", "-o", &file]).output();
+    let registry = std::sync::Arc::new(rayloom_processors::registry());
+    let loaded = rayloom_network::Network::load(Path::new(&network), &registry).expect("a network").network;
+    let gpu = rayloom_gpu::Gpu::new(&rayloom_gpu::GpuOptions::default()).expect("a device");
+    let mut engine = rayloom_studio::Engine::start(gpu, || {}).expect("an engine");
+    // What the window shows meanwhile has another size and does not matter.
+    engine.order(1, &loaded, rayloom_network::Request { size: Some([64, 64]), ..Default::default() });
+    let picture = engine.photographer().picture(loaded.clone(), "canvas", [97, 61]).expect("a picture");
+    rayloom_processors::write_picture(Path::new(&other), &picture).expect("a file");
+    assert_eq!(fs::read(file).expect("a file"), fs::read(other).expect("a file"));
+    let refused = engine.photographer().picture(loaded, "view", [97, 61]).expect_err("no canvas");
+    assert!(refused.contains("`view` shows nothing"), "{refused}");
+}

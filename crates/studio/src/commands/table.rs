@@ -5,6 +5,7 @@ use egui::{Context, Key, KeyboardShortcut, Modifiers, ThemePreference, ViewportC
 use super::{Command, Menu, Scope};
 use crate::app::Studio;
 use crate::panels::{self, NetworkAction, Pane};
+use crate::screenshot::Screenshot;
 use crate::session::Mode;
 
 const fn plain(key: Key) -> KeyboardShortcut {
@@ -51,6 +52,21 @@ const FILE: &[&[Command]] = &[
             studio.files.save_as(&mut studio.session, context);
         })
         .keys(&[ctrl_shift(Key::S)]),
+    ],
+    &[
+        Command::new(
+            "Picture of a canvas...",
+            "Renders what a canvas shows, at any size, into a file.",
+            |studio, _| {
+                studio.screenshot.open();
+            },
+        )
+        .keys(&[ctrl(Key::E)])
+        .enabled(|studio| Screenshot::has_canvas(&studio.session)),
+        editing("Picture of the network...", "Draws the node canvas into an SVG file.", |studio, _| {
+            studio.panels.network.draw(&mut studio.session);
+        })
+        .enabled(|studio| is_development(studio) && studio.session.network().processors().next().is_some()),
     ],
     &[Command::new("Quit", "Closes the window; asks first when something is not saved.", |studio, context| {
         studio.files.quit(&mut studio.session, context);

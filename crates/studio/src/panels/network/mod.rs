@@ -10,6 +10,7 @@ mod minimap;
 mod node;
 mod scene;
 pub(super) mod state;
+mod svg;
 mod text;
 mod waiting;
 
@@ -21,6 +22,7 @@ use rayloom_network::{Address, Connection, EditError};
 
 use crate::catalog::NewProcessor;
 use crate::inspect;
+use crate::panels::Pane;
 use crate::session::Session;
 use crate::wiring::End;
 pub use action::Action;
@@ -64,6 +66,7 @@ pub struct NetworkPanel {
     menu_at: Pos2,
     /// Whether the last click was here, so that keys are meant for the canvas.
     attentive: bool,
+    drawing: svg::Drawing,
 }
 
 impl Default for NetworkPanel {
@@ -81,6 +84,7 @@ impl Default for NetworkPanel {
             shows_map: false,
             menu_at: Pos2::ZERO,
             attentive: true,
+            drawing: svg::Drawing::default(),
         }
     }
 }
@@ -121,6 +125,7 @@ impl NetworkPanel {
         let Scene { geometry, actions: done, resting, .. } = scene;
         actions.extend(done);
         self.geometry = geometry;
+        self.drawing.show(ui.ctx(), session, &self.geometry);
 
         if shown.nodes_moved {
             self.keep_positions(session);
@@ -150,6 +155,14 @@ impl NetworkPanel {
         for action in actions {
             self.apply(action, ui.ctx(), session);
         }
+    }
+
+    /// Draws the whole network into a file.
+    pub fn draw(&mut self, session: &mut Session) {
+        // What is out of sight has no place to be drawn at.
+        self.fit = true;
+        self.drawing.begin();
+        session.to_open.push(Pane::Network);
     }
 
     /// Adds a processor where the pointer is, or in the middle of what is visible.
