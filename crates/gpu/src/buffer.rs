@@ -1,5 +1,4 @@
 use bytemuck::Pod;
-use wgpu::util::DeviceExt;
 
 use crate::{Gpu, GpuError};
 
@@ -28,7 +27,13 @@ impl Gpu {
             &padded
         };
         self.guarded(label, || {
-            self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
+            // Not made mapped, as that panics where there is no memory or no device any more.
+            let usage = usage | wgpu::BufferUsages::COPY_DST;
+            let size = contents.len() as u64;
+            let descriptor = wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false };
+            let buffer = self.device.create_buffer(&descriptor);
+            self.queue.write_buffer(&buffer, 0, contents);
+            buffer
         })
     }
 

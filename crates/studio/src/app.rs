@@ -8,7 +8,7 @@ use rayloom_network::Address;
 use rayloom_processors::registry;
 
 use crate::commands::{self, KeyList};
-use crate::device::Complaints;
+use crate::device::{Complaints, LOST};
 use crate::dialogs::Chooser;
 use crate::display::{Display, gpu_of};
 use crate::engine::Engine;
@@ -209,6 +209,10 @@ impl Studio {
 
     fn title(&self) -> String {
         let document = &self.session.document;
+        // Drawn by the window manager, so it is seen even when nothing else is.
+        if self.complaints.is_lost() {
+            return format!("{} - graphics device lost, save and restart - Rayloom", document.title());
+        }
         let mark = if document.is_modified() { "*" } else { "" };
         format!("{}{mark} - Rayloom", document.title())
     }
@@ -259,7 +263,7 @@ impl eframe::App for Studio {
             self.panels = Panels::default();
         }
         for complaint in self.complaints.take() {
-            self.session.tell(Severity::Error, format!("the graphics device complains: {complaint}"));
+            self.session.tell(Severity::Error, format!("graphics: {complaint}"));
         }
         commands::run_pressed(self, &context);
         if self.session.mode == Mode::Development {
@@ -268,6 +272,9 @@ impl eframe::App for Studio {
                 command.run(self, &context);
             }
             egui::Panel::bottom("status").show(ui, |ui| self.status_line(ui));
+        }
+        if self.complaints.is_lost() {
+            egui::Panel::top("lost").show(ui, |ui| ui.colored_label(theme::ERROR, format!("Error: {LOST}.")));
         }
         self.files.bars(ui, &mut self.session);
         self.welcome.follow(&self.session, &context);

@@ -32,30 +32,58 @@ pub fn configuration() -> WgpuConfiguration {
 
 /// What the device complained about outside of any error scope, for the user to read.
 #[derive(Clone, Default)]
-pub struct Complaints(Arc<Mutex<Vec<String>>>);
+pub struct Complaints(Arc<Mutex<Heard>>);
+
+#[derive(Default)]
+struct Heard {
+    complaints: Vec<String>,
+    /// Why the device is gone, once it is.
+    lost: Option<String>,
+}
 
 impl Complaints {
-    /// Collects what a device complains about from now on; by default the program would end.
+    /// Collects what a device complains about from now on; by default the program would end. Also hears when it is lost.
     pub fn of(device: &Device) -> Self {
         let complaints = Self::default();
-        let collected = complaints.clone();
+        let (collected, lost) = (complaints.clone(), complaints.clone());
         device.on_uncaptured_error(Arc::new(move |error| collected.add(&error.to_string())));
+        device.set_device_lost_callback(move |reason, message| lost.lose(&format!("{reason:?}: {message}")));
         complaints
     }
 
     fn add(&self, message: &str) {
-        // A surface that could not be configured is tried again.
-        if !message.contains("Surface::") {
-            self.lock().push(message.to_owned());
+        let mut heard = self.lock();
+        // A surface that could not be configured is tried again; of a lost device more than that it is lost says nothing.
+        if !message.contains("Surface::") && heard.lost.is_none() {
+            heard.complaints.push(message.to_owned());
+        }
+    }
+
+    fn lose(&self, reason: &str) {
+        let mut heard = self.lock();
+        if heard.lost.is_none() {
+            // A window on a lost device may never be drawn again.
+            eprintln!("error: {LOST} ({reason})");
+            heard.complaints = vec![format!("{LOST} ({reason})")];
+            heard.lost = Some(reason.to_owned());
         }
     }
 
     /// What came since the last call.
     pub fn take(&self) -> Vec<String> {
-        std::mem::take(&mut *self.lock())
+        std::mem::take(&mut self.lock().complaints)
     }
 
-    fn lock(&self) -> std::sync::MutexGuard<'_, Vec<String>> {
+    /// Whether the device is gone for good.
+    pub fn is_lost(&self) -> bool {
+        self.lock().lost.is_some()
+    }
+
+    fn lock(&self) -> std::sync::MutexGuard<'_, Heard> {
         self.0.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 }
+
+/// What the user is told when the device is gone.
+pub const LOST: &str =
+    "the graphics device was lost; save (Ctrl+S) and start the program again: it will offer what is not saved";
