@@ -20,8 +20,8 @@ use rayloom_reference::Cache;
 use crate::chain::Chain;
 use crate::report::text::{milliseconds, number};
 use crate::{MeasureError, Setting, Standard, Summary};
-use judge::Judge;
 pub use judge::picture_error;
+use judge::{Judge, Share};
 use knobs::{Candidate, Knobs};
 use search::{Found, Search};
 
@@ -167,7 +167,7 @@ fn finish(mut search: Search<'_>, found: Found, verdict: Verdict) -> Result<Tune
     let Found { candidate, seen, unseen, .. } = found;
     let (setting, saved) = (search.knobs.setting(&candidate), Setting::saved());
     let views = seen.len() + unseen.len();
-    let saved_errors = search.judge.errors(&saved, 0..views, f64::INFINITY)?;
+    let saved_errors = search.judge.errors(&saved, 0..views, f64::INFINITY, Share::Promised)?;
     let times = match saved_errors.is_some() {
         true => search.judge.times(&[&setting, &saved], search.goal.picture, 1)?,
         false => search.judge.times(&[&setting], search.goal.picture, 1)?,

@@ -1,6 +1,6 @@
 //! The way to a setting: the lowest sampling rate of each integrator, the cheapest of those, a look at views not used so far.
 
-use super::judge::{FINEST_RATE, Judge};
+use super::judge::{FINEST_RATE, Judge, Share};
 use super::knobs::{Candidate, Knobs, ONE, RATES};
 use super::spread;
 use super::{Goal, Tried};
@@ -75,7 +75,7 @@ impl Search<'_> {
             let mut timed = true;
             let too_slow = lowest(self.rates(), |rung| {
                 let setting = self.knobs.setting(&self.knobs.at(&integrator, rung));
-                if self.judge.errors(&setting, 0..1, f64::INFINITY)?.is_none() {
+                if self.judge.errors(&setting, 0..1, f64::INFINITY, Share::Chosen)?.is_none() {
                     return Ok(Answer::Stop);
                 }
                 let time = self.judge.times(&[&setting], self.goal.picture, 2)?.remove(0);
@@ -101,8 +101,9 @@ impl Search<'_> {
     fn look(&mut self, candidate: Candidate, allowed: Option<f64>) -> Result<Found, MeasureError> {
         let setting = self.knobs.setting(&candidate);
         let (views, unseen) = (self.views, self.goal.unseen.max(1));
-        let seen = self.judge.errors(&setting, 0..views, f64::INFINITY)?.unwrap_or_default();
-        let unseen = self.judge.errors(&setting, views..views + unseen, f64::INFINITY)?.unwrap_or_default();
+        let seen = self.judge.errors(&setting, 0..views, f64::INFINITY, Share::Promised)?.unwrap_or_default();
+        let unseen =
+            self.judge.errors(&setting, views..views + unseen, f64::INFINITY, Share::Promised)?.unwrap_or_default();
         let met = allowed.is_some_and(|allowed| seen.iter().chain(&unseen).all(|&error| error <= allowed));
         Ok(Found { candidate, met: met && !unseen.is_empty(), seen, unseen })
     }
@@ -184,7 +185,7 @@ impl Search<'_> {
     /// cannot be rendered.
     fn score(&mut self, candidate: &Candidate, enough: f64) -> Result<Option<Vec<f64>>, MeasureError> {
         let setting = self.knobs.setting(candidate);
-        let Some(errors) = self.judge.errors(&setting, 0..self.views, enough)? else { return Ok(None) };
+        let Some(errors) = self.judge.errors(&setting, 0..self.views, enough, Share::Chosen)? else { return Ok(None) };
         self.tried.retain(|tried| tried.candidate != *candidate);
         self.tried.push(Tried { candidate: candidate.clone(), setting, error: errors[0] });
         Ok(Some(errors))
