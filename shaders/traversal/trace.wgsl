@@ -33,7 +33,7 @@ struct Trace {
     places: vec4f,
     samples: array<Traced>,
 }
-@group(0) @binding(13) var<storage, read_write> trace: Trace;
+@group(0) @binding(16) var<storage, read_write> trace: Trace;
 
 fn trace_ray(ray: Ray) {
     trace.entry = ray.entry;

@@ -43,7 +43,6 @@ pub struct RayTraversal {
 
 impl RayTraversal {
     /// A ray traversal that chooses from the built-in and the user's own snippets.
-    #[expect(clippy::new_without_default, reason = "there is one of them")]
     pub fn new() -> Self {
         Self { declaration: declare::declaration(&snippet_library().0) }
     }
