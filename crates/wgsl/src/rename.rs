@@ -56,7 +56,9 @@ impl Renaming {
         let fields = struct_fields(&list);
         let mut edits: Vec<(usize, usize, String)> = Vec::new();
         for (index, token) in list.iter().enumerate() {
-            if token.kind != TokenKind::Identifier || fields.contains(&token.start) {
+            // A damaged text may even declare a keyword.
+            if token.kind != TokenKind::Identifier || LOOP_WORDS.contains(&token.text) || fields.contains(&token.start)
+            {
                 continue;
             }
             let before = |back: usize| index.checked_sub(back).and_then(|at| list.get(at)).map(|token| token.text);
@@ -82,15 +84,18 @@ impl Renaming {
     }
 }
 
-/// The loops of a text: the word that begins each, and the brace that opens its body.
+/// What begins a loop in WGSL.
+const LOOP_WORDS: [&str; 3] = ["loop", "while", "for"];
+
+/// The loops of a text: the word that begins each, and the brace that opens its body. In a damaged text a word may have no
+/// body: no brace belongs to two.
 pub(crate) fn loops<'a>(list: &[Token<'a>]) -> Vec<(Token<'a>, Token<'a>)> {
+    let begins = |index: usize| LOOP_WORDS.contains(&list[index].text) && !(index > 0 && list[index - 1].text == ".");
     let mut found = Vec::new();
-    for (index, token) in list.iter().enumerate() {
-        if !["loop", "while", "for"].contains(&token.text) || index > 0 && list[index - 1].text == "." {
-            continue;
-        }
+    for (index, token) in list.iter().enumerate().filter(|(index, _)| begins(*index)) {
         let mut depth = 0i32;
-        let body = list[index + 1..].iter().find(|next| {
+        let mut after = (index + 1..list.len()).take_while(|next| !begins(*next)).map(|next| &list[next]);
+        let body = after.find(|next| {
             depth += match next.text {
                 "(" => 1,
                 ")" => -1,

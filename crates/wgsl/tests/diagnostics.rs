@@ -166,7 +166,6 @@ proptest! {
 
     /// Snippets that lost or gained characters: an error with a place or a valid shader, never a panic or a hang.
     #[test]
-    #[ignore = "a damaged text was found that panics; see the regression file"]
     fn damaged_snippets_never_panic(which in any::<prop::sample::Index>(), at in any::<prop::sample::Index>(), cut in 0usize..40, junk in "[ -~\n]{0,12}") {
         let library = Library::built_in().expect("built-in snippets");
         let paths: Vec<_> = Slot::ALL.into_iter().flat_map(|slot| library.snippets(slot).map(|(path, _)| path.clone())).collect();
