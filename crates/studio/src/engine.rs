@@ -142,6 +142,11 @@ impl Engine {
     /// Has processors run at the next order, for a reason that the network does not know.
     pub fn refresh(&mut self, processors: Vec<String>, reason: &str) {
         self.refresh.extend(processors.into_iter().map(|id| (id, reason.to_owned())));
+        self.look_again();
+    }
+
+    /// Has the next order evaluated although it may be what was asked for last.
+    pub fn look_again(&mut self) {
         self.last = None;
     }
 

@@ -2,6 +2,8 @@
 
 mod window;
 
+use std::path::PathBuf;
+
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
@@ -71,24 +73,27 @@ fn a_live_text_is_broken_and_mended_while_the_picture_stays() {
     assert!(window.state().session.engine.results.report.is_complete());
 }
 
-/// The folder of the user's snippets is named by the environment, so this test runs itself with one.
-#[test]
-fn a_text_is_kept_as_a_snippet_of_ones_own() {
+/// The folder of the user's snippets is named by the environment, so a test runs itself with one: here it ends with the folder's
+/// path in the run inside, and with nothing after that.
+fn snippet_folder(test: &str) -> Option<PathBuf> {
     const FOLDER: &str = "RAYLOOM_SNIPPETS";
     const INSIDE: &str = "RAYLOOM_SNIPPETS_OF_TEST";
-    if std::env::var_os(INSIDE).is_none() {
-        let folder = std::env::temp_dir().join(format!("rayloom-snippets-{}", std::process::id()));
-        let program = std::env::current_exe().expect("a program");
-        let status = std::process::Command::new(program)
-            .args(["a_text_is_kept_as_a_snippet_of_ones_own", "--exact"])
-            .envs([(FOLDER, folder.as_os_str()), (INSIDE, "1".as_ref())])
-            .status();
-        let kept = std::fs::read_to_string(folder.join("warm.wgsl"));
-        std::fs::remove_dir_all(&folder).expect("a folder");
-        assert!(status.expect("it runs").success());
-        assert!(kept.expect("a file").ends_with("// warm"));
-        return;
+    if std::env::var_os(INSIDE).is_some() {
+        return std::env::var_os(FOLDER).map(PathBuf::from);
     }
+    let folder = tempfile::tempdir().expect("a folder");
+    let program = std::env::current_exe().expect("a program");
+    let mut run = std::process::Command::new(program);
+    run.args([test, "--exact"]).envs([(FOLDER, folder.path().as_os_str()), (INSIDE, "1".as_ref())]);
+    let output = run.output().expect("it runs");
+    let said = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
+    assert!(output.status.success() && said[0].contains("1 passed"), "{}", said.concat());
+    None
+}
+
+#[test]
+fn a_text_is_kept_as_a_snippet_of_ones_own() {
+    let Some(folder) = snippet_folder("a_text_is_kept_as_a_snippet_of_ones_own") else { return };
     let mut window = opened();
     type_at_end(&mut window, "\n// warm");
     click(&mut window, "Save as...");
@@ -104,4 +109,46 @@ fn a_text_is_kept_as_a_snippet_of_ones_own() {
     let session = &window.state().session;
     assert!(session.engine.results.report.is_complete(), "{:?}", session.engine.results.report.failed);
     assert!(session.engine.results.shaders["traversal"].assembled.text.contains("// warm"));
+    assert!(std::fs::read_to_string(folder.join("warm.wgsl")).expect("a file").ends_with("// warm"));
+}
+
+#[test]
+fn a_snippet_that_changes_on_the_disk_is_read_again() {
+    let Some(folder) = snippet_folder("a_snippet_that_changes_on_the_disk_is_read_again") else { return };
+    let write = |head: &str, factor: &str| {
+        let text = format!(
+            "//! slot: {head}\n//! label: Flat\n//! help: Evenly.\n//! param level: f32 = 0.5 [0, 1] -- how bright\n\n\
+             fn shade(medium: vec4f, surface: Surface) -> vec4f {{\n    return medium * {factor};\n}}\n"
+        );
+        std::fs::write(folder.join("flat.wgsl"), text).expect("written");
+    };
+    let mut window = opened();
+    // A file that comes while the program runs can be chosen.
+    std::thread::sleep(std::time::Duration::from_millis(700));
+    write("shading", "params.level");
+    window::wait_for(&mut window, "your snippets changed and were read again");
+    let choose = |network: &mut rayloom_network::Network| {
+        network.set_from_json("traversal", "shading", &serde_json::json!("flat")).map(|_| ())
+    };
+    assert!(window.state_mut().session.edit("choose", choose));
+    let shader = |studio: &Studio, text: &str| {
+        let shader = studio.session.engine.results.shaders.get("traversal");
+        !failed(studio) && shader.is_some_and(|shader| shader.assembled.text.contains(text))
+    };
+    window::wait_until(&mut window, |studio| shader(studio, "level;"));
+    let error = |studio: &Studio| {
+        studio.session.engine.results.report.failed.get("traversal").map(ToString::to_string).unwrap_or_default()
+    };
+    // Broken in its text, then in its head: the message names the place, the picture and the text stay.
+    write("shading", "params.lvl");
+    window::wait_until(&mut window, |studio| error(studio).contains("user/flat.wgsl:7:"));
+    write("shadow", "0.25");
+    window::wait_until(&mut window, |studio| error(studio).contains("user/flat.wgsl:1:"));
+    window.run_steps(3);
+    let results = &window.state().session.engine.results;
+    assert!(results.canvases.contains_key("canvas") && results.shaders.contains_key("traversal"));
+    assert!(window.query_all_by_label_contains("user/flat.wgsl:1:").next().is_some(), "it is not told");
+    // Mended.
+    write("shading", "0.25");
+    window::wait_until(&mut window, |studio| shader(studio, "medium * 0.25"));
 }

@@ -25,7 +25,7 @@ pub enum SourceKind {
 }
 
 /// One shader file.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Source {
     /// Path inside the library, such as `gradient/central.wgsl` or `user/mine.wgsl`.
     pub path: Arc<str>,
@@ -36,7 +36,7 @@ pub struct Source {
 }
 
 /// The shader files that an assembly can draw from. Cloning is cheap: texts are shared.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Library {
     sources: BTreeMap<Arc<str>, Source>,
     snippets: BTreeMap<Arc<str>, Arc<Declaration>>,

@@ -7,15 +7,13 @@ use std::sync::{Arc, PoisonError, RwLock};
 use rayloom_network::{ProcessError, Properties};
 use rayloom_wgsl::{Diagnostic, Library, Slot, parse_declaration};
 
-/// The folder of the user's own snippets, if there is one: `$RAYLOOM_SNIPPETS`, or `rayloom/snippets` in the configuration folder.
-pub fn user_folder() -> Option<PathBuf> {
-    let named = std::env::var_os("RAYLOOM_SNIPPETS").is_some();
-    folder().filter(|folder| named || folder.is_dir())
-}
+/// Names the folder of the user's own snippets.
+const FOLDER: &str = "RAYLOOM_SNIPPETS";
 
-/// Where that folder is or would be.
-fn folder() -> Option<PathBuf> {
-    if let Some(folder) = std::env::var_os("RAYLOOM_SNIPPETS") {
+/// Where the folder of the user's own snippets is or would be: `$RAYLOOM_SNIPPETS`, or `rayloom/snippets` in the configuration
+/// folder.
+pub fn user_folder() -> Option<PathBuf> {
+    if let Some(folder) = std::env::var_os(FOLDER) {
         return Some(folder.into());
     }
     let config = std::env::var_os("XDG_CONFIG_HOME").map(PathBuf::from);
@@ -35,18 +33,21 @@ pub fn snippet_library() -> Loaded {
     known.unwrap_or_else(reload_snippets)
 }
 
-/// Reads the user's folder anew.
+/// Reads the user's folder anew. A folder that nobody named may be missing.
 pub fn reload_snippets() -> Loaded {
     // Embedded at build time; every one is assembled and validated by the tests.
     let mut library = Library::built_in().expect("the built-in snippets declare themselves well");
-    let problems = user_folder().map(|folder| library.add_folder(&folder)).unwrap_or_default();
+    let folder = user_folder().filter(|folder| std::env::var_os(FOLDER).is_some() || folder.is_dir());
+    let problems = folder.map(|folder| library.add_folder(&folder)).unwrap_or_default();
     let loaded: Loaded = (Arc::new(library), problems.into());
-    *LIBRARY.write().unwrap_or_else(PoisonError::into_inner) = Some(loaded.clone());
-    REVISION.fetch_add(1, Ordering::Relaxed);
+    let before = LIBRARY.write().unwrap_or_else(PoisonError::into_inner).replace(loaded.clone());
+    if before.as_ref() != Some(&loaded) {
+        REVISION.fetch_add(1, Ordering::Relaxed);
+    }
     loaded
 }
 
-/// A number that grows whenever the user's folder is read.
+/// A number that grows whenever something else is found in the user's folder.
 pub fn snippet_revision() -> u64 {
     REVISION.load(Ordering::Relaxed)
 }
@@ -73,7 +74,8 @@ pub fn save_user_snippet(slot: Slot, name: &str, text: &str) -> Result<PathBuf, 
         return Err(format!("`{name}` is already a {other} snippet of yours; choose another name"));
     }
     trial.add_user(&file, text).map_err(|problem| problem.to_string())?;
-    let folder = folder().ok_or("there is no place for snippets of your own; name a folder in RAYLOOM_SNIPPETS")?;
+    let folder =
+        user_folder().ok_or("there is no place for snippets of your own; name a folder in RAYLOOM_SNIPPETS")?;
     let path = folder.join(&file);
     let partial = folder.join(format!("{file}.part"));
     let written = std::fs::create_dir_all(&folder)
@@ -138,6 +140,11 @@ impl Place {
 
     fn find(&self, library: &Library, id: &str) -> Result<Arc<str>, ProcessError> {
         library.path(self.slot, id).ok_or_else(|| {
+            let file = format!("user/{id}.wgsl");
+            let own: Vec<_> = snippet_library().1.iter().filter(|problem| problem.file == file).cloned().collect();
+            if !own.is_empty() {
+                return shader_error(own);
+            }
             let known: Vec<_> = library.snippets(self.slot).map(|(path, _)| Library::id(path)).collect();
             ProcessError::new(format!("there is no {} snippet `{id}`; there are {}", self.slot, known.join(", ")))
         })

@@ -90,7 +90,7 @@ impl Files {
             may_close: false,
             rescue: rescue.unwrap_or_default(),
             recent,
-            reload: Reload::new(context),
+            reload: Reload::new(session, context),
         }
     }
 

@@ -1,18 +1,22 @@
-//! Files that change on the disk are read again: data at once, the network's own file unless that would lose changes.
+//! Files that change on the disk are read again: data and snippets at once, the network's own file unless that would lose
+//! changes.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::task::Poll;
 
 use egui::{Context, Ui};
 use rayloom_network::{LoadError, Loaded, Network, PropertyKind, Value};
+use rayloom_processors::{reload_snippets, snippet_library, snippet_revision, user_folder};
+use rayloom_wgsl::Diagnostic;
 
 use super::bar;
 use super::watch::Watch;
 use crate::later::Later;
 use crate::session::{Session, Severity};
 
-/// Watches the files of the document.
+/// Watches the files of the document and the user's snippets.
 pub(super) struct Reload {
     watch: Watch,
     /// The state of the document whose files are watched.
@@ -20,18 +24,36 @@ pub(super) struct Reload {
     reading: Option<Later<(PathBuf, Result<Loaded, LoadError>)>>,
     /// What another program wrote over the file of a document with changes.
     offer: Option<(PathBuf, Network)>,
+    snippets: Option<PathBuf>,
+    /// Whether snippets are other ones now, and what is wrong with them.
+    reading_snippets: Option<Later<(bool, Arc<[Diagnostic]>)>>,
 }
 
 impl Reload {
-    /// Watches nothing yet.
-    pub fn new(context: &Context) -> Self {
-        Self { watch: Watch::start(context), watched: None, reading: None, offer: None }
+    /// Watches nothing yet, and tells what is wrong with the user's snippets.
+    pub fn new(session: &mut Session, context: &Context) -> Self {
+        tell_problems(&snippet_library().1, session);
+        Self {
+            watch: Watch::start(context),
+            watched: None,
+            reading: None,
+            offer: None,
+            snippets: user_folder(),
+            reading_snippets: None,
+        }
     }
 
     /// To be called every frame.
     pub fn follow(&mut self, session: &mut Session, context: &Context) {
         self.watch_document(session);
         while let Some(path) = self.watch.changed() {
+            if self.snippets.as_ref() == Some(&path) {
+                self.reading_snippets = Some(Later::start(context, || {
+                    let before = snippet_revision();
+                    let problems = reload_snippets().1;
+                    (snippet_revision() != before, problems)
+                }));
+            }
             if session.document.path() == Some(&path) {
                 let (path, registry) = (path.clone(), session.registry.clone());
                 self.reading = Some(Later::start(context, move || {
@@ -52,6 +74,17 @@ impl Reload {
             self.reading = None;
             if let Some((path, loaded)) = read {
                 self.take_in(path, loaded, session);
+            }
+        }
+        if let Some(reading) = &self.reading_snippets
+            && let Poll::Ready(read) = reading.poll()
+        {
+            self.reading_snippets = None;
+            // What was saved here is in use already.
+            if let Some((true, problems)) = read {
+                session.tell(Severity::Note, "your snippets changed and were read again");
+                tell_problems(&problems, session);
+                session.engine.look_again();
             }
         }
     }
@@ -81,7 +114,8 @@ impl Reload {
         }
         self.watched = Some((session.document.revision(), path.map(Path::to_owned)));
         let data = files(session.network()).map(|(_, file)| file);
-        self.watch.follow(data.chain(path.map(Path::to_owned)).collect::<BTreeSet<_>>());
+        let own = path.map(Path::to_owned).into_iter().chain(self.snippets.clone());
+        self.watch.follow(data.chain(own).collect::<BTreeSet<_>>());
     }
 
     fn take_in(&mut self, path: PathBuf, loaded: Result<Loaded, LoadError>, session: &mut Session) {
@@ -95,6 +129,12 @@ impl Reload {
             Ok(loaded) => replace(session, &path, loaded.network),
             Err(error) => session.tell(Severity::Error, format!("the file changed, but not to a network: {error}")),
         }
+    }
+}
+
+fn tell_problems(problems: &[Diagnostic], session: &mut Session) {
+    for problem in problems {
+        session.tell(Severity::Error, problem.to_string());
     }
 }
 

@@ -1,4 +1,4 @@
-//! Notices when files change on the disk, by looking now and then: that works on every file system and with every way to
+//! Notices when files and folders of snippets change on the disk, by looking now and then: that works on every file system and with every way to
 //! write a file.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -12,8 +12,8 @@ use egui::Context;
 /// left alone while it is being written.
 const PAUSE: Duration = Duration::from_millis(500);
 
-/// What tells states of a file apart; `None` when it is not there.
-type Stamp = Option<(u64, SystemTime)>;
+/// What tells states of a file, or of the snippets in a folder, apart; `None` when it is not there.
+type Stamp = Option<BTreeMap<PathBuf, (u64, SystemTime)>>;
 
 /// Watches files on a thread of its own.
 pub(super) struct Watch {
@@ -21,7 +21,7 @@ pub(super) struct Watch {
     changed: Receiver<PathBuf>,
 }
 
-/// What is known of a file.
+/// What is known of a file or folder.
 struct Known {
     told: Stamp,
     seen: Stamp,
@@ -38,13 +38,13 @@ impl Watch {
         Self { wanted, changed }
     }
 
-    /// Watches these files from now on.
+    /// Watches these files, and the snippets in these folders, from now on.
     pub fn follow(&self, files: BTreeSet<PathBuf>) {
         // The thread ends with this only, or by a panic, which was printed.
         let _ = self.wanted.send(files);
     }
 
-    /// A file that changed, or came, since the last call.
+    /// One of them that changed, or came, since the last call.
     pub fn changed(&self) -> Option<PathBuf> {
         self.changed.try_recv().ok()
     }
@@ -57,18 +57,20 @@ fn look(orders: &Receiver<BTreeSet<PathBuf>>, changed: &Sender<PathBuf>, context
             Ok(wanted) => {
                 known.retain(|path, _| wanted.contains(path));
                 for path in wanted {
-                    let now = stamp(&path);
-                    known.entry(path).or_insert(Known { told: now, seen: now });
+                    known.entry(path).or_insert_with_key(|path| {
+                        let now = stamp(path);
+                        Known { told: now.clone(), seen: now }
+                    });
                 }
             }
             Err(RecvTimeoutError::Timeout) => {
                 for (path, known) in &mut known {
                     let now = stamp(path);
                     let settled = known.seen == now;
-                    known.seen = now;
+                    known.seen.clone_from(&now);
                     if settled && now != known.told {
                         known.told = now;
-                        if now.is_some() && changed.send(path.clone()).is_err() {
+                        if known.told.is_some() && changed.send(path.clone()).is_err() {
                             return;
                         }
                         context.request_repaint();
@@ -82,5 +84,18 @@ fn look(orders: &Receiver<BTreeSet<PathBuf>>, changed: &Sender<PathBuf>, context
 
 fn stamp(path: &Path) -> Stamp {
     let facts = std::fs::metadata(path).ok()?;
-    Some((facts.len(), facts.modified().ok()?))
+    if !facts.is_dir() {
+        return Some([(path.to_owned(), (facts.len(), facts.modified().ok()?))].into());
+    }
+    let files = std::fs::read_dir(path).ok()?.flatten().map(|entry| entry.path());
+    let snippets = files.filter(|file| file.extension().is_some_and(|extension| extension == "wgsl"));
+    Some(
+        snippets
+            .filter_map(|file| {
+                let facts = std::fs::metadata(&file).ok()?;
+                let state = (facts.len(), facts.modified().ok()?);
+                Some((file, state))
+            })
+            .collect(),
+    )
 }

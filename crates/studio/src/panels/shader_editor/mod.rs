@@ -107,17 +107,21 @@ pub(super) fn in_use(slot: Slot, property: &str, own: &str, properties: &Propert
         return (format!("edited/{chooser}.wgsl"), own.to_owned());
     }
     let library = snippet_library().0;
-    let path = properties.text(chooser).ok().and_then(|id| library.path(slot, id));
-    let text = path.as_ref().and_then(|path| library.source(path)).map(|source| source.text.to_string());
-    (path.map(|path| path.to_string()).unwrap_or_default(), text.unwrap_or_default())
+    let id = properties.text(chooser).unwrap_or_default();
+    // One that is not known can only be the user's.
+    let path = library.path(slot, id).map_or_else(|| format!("user/{id}.wgsl"), |path| path.to_string());
+    let text = library.source(&path).map(|source| source.text.to_string()).unwrap_or_default();
+    (path, text)
 }
 
 impl Editor {
-    /// Takes in what was changed elsewhere: another snippet, undo.
+    /// Takes in what was changed elsewhere: another snippet, its file, undo. What was typed and is not applied stays, and so does
+    /// the text of a file that is no snippet at the moment.
     fn follow(&mut self, place: &Place) {
-        if place.source != self.base {
+        if place.source != self.base && !place.source.is_empty() {
+            let untouched = self.text == self.base;
             self.base.clone_from(&place.source);
-            if !self.live || self.typed.is_none() {
+            if untouched {
                 self.text.clone_from(&place.source);
             }
         }
