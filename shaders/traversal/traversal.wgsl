@@ -75,7 +75,8 @@ fn traverse() {
 #else
 
 @compute @workgroup_size(8, 8)
-fn traverse(@builtin(global_invocation_id) id: vec3u) {
+fn traverse(@builtin(global_invocation_id) invocation: vec3u) {
+    let id = invocation + vec3u(0u, frame.first_row, 0u);
 #endif
     if any(id.xy >= frame.image_size) {
         return;

@@ -32,6 +32,8 @@ struct Frame {
     label_minimum: f32,
     label_span: f32,
     jitter_seed: u32,
+    /// Row of the picture at which the dispatch begins.
+    first_row: u32,
 }
 
 /// A ray in volume coordinates.

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 use crate::{Gpu, GpuError};
 
 /// Passes that one measurement can cover; later ones run unmeasured.
-const PASSES: u32 = 64;
+const PASSES: u32 = 1024;
 
 /// Measures the GPU time of passes with timestamp queries: hand [`Timer::compute_pass`] or [`Timer::render_pass`] to
 /// each pass, submit, then ask [`Timer::finish`] for the sum. On a device without timestamps every answer is `None`.

@@ -1,5 +1,6 @@
 //! Binds what the assembled shader uses and runs it.
 
+use std::mem::offset_of;
 use std::sync::Arc;
 
 use bytemuck::bytes_of;
@@ -10,6 +11,7 @@ use rayloom_volume::ValueRange;
 use rayloom_wgsl::{Diagnostic, Validated};
 use serde_json::{Map, json};
 
+use super::bands::Pace;
 use super::choose::Plan;
 use super::explain::purpose;
 use super::frame::{Frame, reference_length};
@@ -102,9 +104,7 @@ impl Pass<'_> {
                 Ok((field.name.clone(), resource))
             })
             .collect::<Result<Vec<_>, ProcessError>>()?;
-        let label = format!("ray traversal `{}`", self.job.id);
-        let groups = self.inputs.view.size.map(|pixels| pixels.div_ceil(GROUP));
-        submit(context, &label, self.shader, &resources, groups, true)?;
+        self.traverse(context, &resources, &mut memory.pace)?;
         if context.ledger.is_enabled() {
             context.ledger.extend(self.explanations()?);
         }
@@ -115,6 +115,32 @@ impl Pass<'_> {
         // Targets go back to the pool when nobody shows them any more.
         resources.retain(|(name, _)| name != "counters" && name != "sample_map" && !name.starts_with("out"));
         Ok(Drawn { targets, samples, inputs: resources, counted })
+    }
+
+    /// Runs the shader on the whole picture, band by band.
+    fn traverse(
+        &self,
+        context: &mut Context,
+        resources: &[(String, Resource)],
+        pace: &mut Pace,
+    ) -> Result<(), ProcessError> {
+        let label = format!("ray traversal `{}`", self.job.id);
+        let bound = Bound::new(context, &label, self.shader, resources)?;
+        let frame = resources.iter().find_map(|(name, resource)| match resource {
+            Resource::Buffer(buffer) if name == "frame" => Some(buffer),
+            _ => None,
+        });
+        let [width, _] = self.inputs.view.size;
+        pace.in_bands(self.inputs.view.size, GROUP, |rows| {
+            if let Some(frame) = frame {
+                let place = offset_of!(Frame, first_row) as u64;
+                context.gpu.queue.write_buffer(frame, place, bytes_of(&rows.start));
+            }
+            let groups = [width, rows.len() as u32].map(|pixels| pixels.div_ceil(GROUP));
+            bound.submit(&context.gpu, groups, context.timer.compute_pass())?;
+            context.gpu.wait(&label)
+        })?;
+        Ok(())
     }
 
     /// Fails when a loop of the user's own snippets did not end. Waits for the device, which is why it is asked of no others.
@@ -281,43 +307,62 @@ impl Pass<'_> {
     }
 }
 
-/// Runs a shader once on resources given by the names of its global variables.
-///
-/// # Errors
-/// The shader binds something that is not among them; the device refuses.
-pub(super) fn submit(
-    context: &mut Context,
-    label: &str,
-    shader: &Validated,
-    resources: &[(String, Resource)],
-    groups: [u32; 2],
-    timed: bool,
-) -> Result<(), ProcessError> {
-    let entries = shader.interface.bindings.iter().map(|field| {
-        let (_, resource) =
-            resources.iter().find(|(name, _)| *name == field.name).ok_or_else(|| unknown(&field.name))?;
-        Ok(wgpu::BindGroupEntry { binding: field.binding, resource: resource.binding() })
-    });
-    let entries = entries.collect::<Result<Vec<_>, ProcessError>>()?;
-    let pipeline = context.pipelines.compute(&context.gpu, label, &shader.assembled.text, "traverse")?;
-    let (gpu, timer) = (&context.gpu, &context.timer);
-    gpu.guarded(label, || {
-        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some(label),
-            layout: &pipeline.get_bind_group_layout(0),
-            entries: &entries,
+/// A shader with everything that it reads and writes.
+pub(super) struct Bound<'a> {
+    label: &'a str,
+    pipeline: wgpu::ComputePipeline,
+    group: wgpu::BindGroup,
+}
+
+impl<'a> Bound<'a> {
+    /// Binds resources given by the names of the shader's global variables.
+    ///
+    /// # Errors
+    /// The shader binds something that is not among them; the device refuses.
+    pub fn new(
+        context: &mut Context,
+        label: &'a str,
+        shader: &Validated,
+        resources: &[(String, Resource)],
+    ) -> Result<Self, ProcessError> {
+        let entries = shader.interface.bindings.iter().map(|field| {
+            let (_, resource) =
+                resources.iter().find(|(name, _)| *name == field.name).ok_or_else(|| unknown(&field.name))?;
+            Ok(wgpu::BindGroupEntry { binding: field.binding, resource: resource.binding() })
         });
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let timestamp_writes = if timed { timer.compute_pass() } else { None };
-        let mut pass =
-            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(label), timestamp_writes });
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &group, &[]);
-        pass.dispatch_workgroups(groups[0], groups[1], 1);
-        drop(pass);
-        gpu.queue.submit([encoder.finish()]);
-    })?;
-    Ok(())
+        let entries = entries.collect::<Result<Vec<_>, ProcessError>>()?;
+        let pipeline = context.pipelines.compute(&context.gpu, label, &shader.assembled.text, "traverse")?;
+        let group = context.gpu.guarded(label, || {
+            context.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some(label),
+                layout: &pipeline.get_bind_group_layout(0),
+                entries: &entries,
+            })
+        })?;
+        Ok(Self { label, pipeline, group })
+    }
+
+    /// Submits one run of so many workgroups.
+    ///
+    /// # Errors
+    /// The device refuses.
+    pub fn submit(
+        &self,
+        gpu: &Gpu,
+        groups: [u32; 2],
+        timestamp_writes: Option<wgpu::ComputePassTimestampWrites<'_>>,
+    ) -> Result<(), GpuError> {
+        gpu.guarded(self.label, || {
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            let mut pass =
+                encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(self.label), timestamp_writes });
+            pass.set_pipeline(&self.pipeline);
+            pass.set_bind_group(0, &self.group, &[]);
+            pass.dispatch_workgroups(groups[0], groups[1], 1);
+            drop(pass);
+            gpu.queue.submit([encoder.finish()]);
+        })
+    }
 }
 
 fn unknown(name: &str) -> ProcessError {

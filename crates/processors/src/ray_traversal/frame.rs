@@ -30,7 +30,8 @@ pub(super) struct Frame {
     pub label_minimum: f32,
     pub label_span: f32,
     jitter_seed: u32,
-    padding: f32,
+    /// Row of the picture at which the dispatch begins.
+    pub first_row: u32,
 }
 
 /// Above every opacity: no ray stops early.
@@ -69,7 +70,7 @@ impl Frame {
             label_minimum: 0.0,
             label_span: 1.0,
             jitter_seed: properties.int("jitter_seed")? as u32,
-            padding: 0.0,
+            first_row: 0,
         })
     }
 }

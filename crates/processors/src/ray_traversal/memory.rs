@@ -7,6 +7,7 @@ use rayloom_network::ProcessError;
 use rayloom_volume::{LabelTable, TransferFunction, TransferFunction2D, ValueRange};
 use rayloom_wgsl::{Assembled, Choice, Library, Validated, assemble, validate};
 
+use super::bands::Pace;
 use super::gaps::GapMemory;
 use super::memo::Memo;
 use super::skipping::SkipMemory;
@@ -26,6 +27,8 @@ pub struct Memory {
     pub(super) last_run: Option<LastRun>,
     /// The shader of the ray probe.
     pub(super) tracing: ShaderMemo,
+    /// How fast the last picture was.
+    pub(super) pace: Pace,
     pub(super) splines: Splines,
     pub(super) skipping: SkipMemory,
     pub(super) gaps: GapMemory,

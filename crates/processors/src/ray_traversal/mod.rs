@@ -1,5 +1,6 @@
 //! Ray traversal: walks the rays between entry and exit points; its shader is assembled from snippets.
 
+mod bands;
 mod choose;
 mod declare;
 mod dispatch;

@@ -10,7 +10,7 @@ use rayloom_volume::ValueRange;
 use rayloom_wgsl::{Choice, Library};
 
 use super::choose::Plan;
-use super::dispatch::{Resource, submit};
+use super::dispatch::{Bound, Resource};
 use super::frame::{mean_spacing, reference_length};
 use super::memory::{Memory, shader};
 use super::{Inputs, OUTPORTS};
@@ -202,7 +202,7 @@ impl Runner {
         let buffer = context.gpu.buffer("ray probe", &bytes, BufferUsages::STORAGE | BufferUsages::COPY_SRC)?;
         let mut resources = run.resources.clone();
         resources.push(("trace".into(), Resource::Buffer(buffer.clone())));
-        submit(context, "ray probe", &shader, &resources, [1, 1], false)?;
+        Bound::new(context, "ray probe", &shader, &resources)?.submit(&context.gpu, [1, 1], None)?;
         let bytes = context.gpu.read_buffer(&buffer)?;
         let (head, rest) = bytes.split_at(size_of::<Head>());
         let head: Head = pod_read_unaligned(head);
