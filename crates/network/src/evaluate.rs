@@ -68,11 +68,16 @@ impl<B: Backend> Evaluator<B> {
         self.asked.retain(|id, _| network.processor(id).is_some());
         self.standings.clear();
         let mut report = Report::default();
-        for id in &plan.order {
-            if let Some(processor) = network.processor(id) {
-                let standing = self.visit(network, backend, &plan, processor, &mut report);
-                self.standings.insert(id.clone(), standing);
-            }
+        for processor in plan.order.iter().filter_map(|id| network.processor(id)) {
+            let standing = match backend.interrupted() {
+                true => None,
+                false => self.visit(network, backend, &plan, processor, &mut report),
+            };
+            let Some(standing) = standing else {
+                report.interrupted = true;
+                break;
+            };
+            self.standings.insert(processor.id().to_owned(), standing);
         }
         self.conclude(network, &plan, &mut report);
         report.stale = self.outdated(network, &plan);
@@ -135,7 +140,7 @@ impl<B: Backend> Evaluator<B> {
         self.asked.clear();
     }
 
-    /// Runs one processor if it must and can.
+    /// Runs one processor if it must and can; `None` if it was interrupted.
     fn visit(
         &mut self,
         network: &Network,
@@ -143,14 +148,14 @@ impl<B: Backend> Evaluator<B> {
         plan: &Plan,
         processor: &Processor,
         report: &mut Report,
-    ) -> Standing {
+    ) -> Option<Standing> {
         let id = processor.id();
         let inputs = match self.gather(network, backend, processor) {
             Ok(inputs) => inputs,
-            Err(Blocked(causes)) => return Standing::NotReady(causes),
+            Err(Blocked(causes)) => return Some(Standing::NotReady(causes)),
         };
         let (Some(processor_type), Some(&size)) = (processor.processor_type(), plan.size.get(id)) else {
-            return Standing::NotReady(Vec::new());
+            return Some(Standing::NotReady(Vec::new()));
         };
         let (decls, properties) = processor.resolve();
         let signature = Signature {
@@ -171,12 +176,24 @@ impl<B: Backend> Evaluator<B> {
                 reasons: &reasons,
             };
             let (run, data) = run(backend, &job);
+            if matches!(run.outcome, Outcome::Failed(_)) && backend.interrupted() {
+                self.ask_again(run);
+                return None;
+            }
             report.runs.push(run.clone());
             self.remember(processor, signature, run, data);
         }
-        match self.error(id) {
+        Some(match self.error(id) {
             Some(_) => Standing::Failed,
             None => Standing::Current,
+        })
+    }
+
+    /// What someone asked of a run that was interrupted is asked of the next.
+    fn ask_again(&mut self, run: Run) {
+        let asked: Vec<Reason> = run.reasons.into_iter().filter(|reason| matches!(reason, Reason::Asked(_))).collect();
+        if !asked.is_empty() {
+            self.asked.insert(run.processor, (run.level, asked));
         }
     }
 

@@ -28,6 +28,12 @@ pub trait Backend {
     /// # Errors
     /// Why it failed; the error is shown on the processor and the rest of the network goes on.
     fn process(&mut self, job: &Job<'_, Self::Data>) -> Result<Outputs<Self::Data>, ProcessError>;
+
+    /// Whether nobody waits any more for what is being evaluated. Asked before every processor and after one that failed: such a
+    /// failure does not count, the evaluation ends, and what has run stays.
+    fn interrupted(&self) -> bool {
+        false
+    }
 }
 
 /// Data at an inport.

@@ -135,6 +135,8 @@ pub struct Report {
     pub not_ready: BTreeMap<String, Vec<String>>,
     /// Processors that were needed and failed, now or at an earlier evaluation with the same inputs and properties.
     pub failed: BTreeMap<String, ProcessError>,
+    /// Whether the evaluation was interrupted ([`crate::Backend::interrupted`]), so that some of what was needed did not run.
+    pub interrupted: bool,
     /// Time for the whole evaluation.
     pub elapsed: Duration,
 }
@@ -142,7 +144,7 @@ pub struct Report {
 impl Report {
     /// Whether everything that was needed has its result.
     pub fn is_complete(&self) -> bool {
-        self.not_ready.is_empty() && self.failed.is_empty()
+        self.not_ready.is_empty() && self.failed.is_empty() && !self.interrupted
     }
 
     /// Ids of the processors that ran, in order.

@@ -31,6 +31,8 @@ pub struct Context {
     pub ledger: Ledger,
     /// Whom to tell about progress.
     pub progress: Option<ProgressListener>,
+    /// Says whether nobody waits any more for what is being computed.
+    pub interrupt: Option<Box<dyn Fn() -> bool + Send>>,
     states: HashMap<(String, TypeId), Box<dyn Any + Send>>,
     blank_color: Arc<Texture>,
     blank_depth: Arc<Texture>,
@@ -51,6 +53,7 @@ impl Context {
             count_samples: false,
             ledger: Ledger::default(),
             progress: None,
+            interrupt: None,
             states: HashMap::new(),
             blank_color,
             blank_depth,
@@ -116,6 +119,11 @@ impl Context {
     /// One texel of [`MISS`], for a depth that does not exist.
     pub fn blank_depth(&self) -> Arc<Texture> {
         self.blank_depth.clone()
+    }
+
+    /// Whether nobody waits any more for what is being computed; slow processors then fail, with whatever error.
+    pub fn interrupted(&self) -> bool {
+        self.interrupt.as_ref().is_some_and(|interrupted| interrupted())
     }
 
     /// Tells the listener, if any, how far the processor with this id is.

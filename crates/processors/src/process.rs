@@ -90,6 +90,10 @@ impl Backend for Runner {
         data.facts()
     }
 
+    fn interrupted(&self) -> bool {
+        self.context.interrupted()
+    }
+
     fn process(&mut self, job: &Job<'_, Data>) -> Result<Outputs<Data>, ProcessError> {
         let id = &job.processor_type.declaration().id;
         let process = self.processes.get(id).cloned().ok_or_else(|| {

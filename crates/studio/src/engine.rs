@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 
@@ -15,12 +16,32 @@ use rayloom_wgsl::Validated;
 
 use crate::probe::{Ray, TRAVERSAL};
 
+/// Lets orders in a hurry end the evaluation of one that is not.
+///
+/// Orders in a hurry (something moves under the pointer) come faster than pictures and never end each other: there would be no
+/// picture at all.
+#[derive(Default)]
+struct Hurry {
+    /// Number of the last order that was in a hurry.
+    newest: AtomicU64,
+    /// Number of the order that is at work and has time; 0 if there is none.
+    patient: AtomicU64,
+}
+
+impl Hurry {
+    fn interrupts(&self) -> bool {
+        let patient = self.patient.load(Ordering::Relaxed);
+        patient > 0 && self.newest.load(Ordering::Relaxed) > patient
+    }
+}
+
 /// What to evaluate. Only the newest order counts.
 struct Order {
     network: Network,
     request: Request,
     ray: Option<Ray>,
     number: u64,
+    in_a_hurry: bool,
     /// Processors to run although nothing that the network knows of changed, and why.
     refresh: Vec<(String, String)>,
 }
@@ -95,6 +116,7 @@ pub struct Engine {
     thread: Option<JoinHandle<()>>,
     /// Number of the last order.
     ordered: u64,
+    hurry: Arc<Hurry>,
     /// What the next order is to run in any case.
     refresh: Vec<(String, String)>,
     last: Option<(u64, Request, Option<Ray>)>,
@@ -124,12 +146,17 @@ impl Engine {
             let _ = progress_outbox.send(News::Progress(id.to_owned(), progress));
             progress_wake();
         }));
-        let thread = std::thread::spawn(move || work(Telling { runner, news: outbox }, &inbox, &wake));
+        let hurry = Arc::new(Hurry::default());
+        let interrupting = hurry.clone();
+        runner.context.interrupt = Some(Box::new(move || interrupting.interrupts()));
+        let telling = Telling { runner, news: outbox, hurry: hurry.clone() };
+        let thread = std::thread::spawn(move || work(telling, &inbox, &wake));
         Ok(Self {
             tasks,
             news,
             thread: Some(thread),
             ordered: 0,
+            hurry,
             refresh: Vec::new(),
             last: None,
             ray: None,
@@ -150,8 +177,9 @@ impl Engine {
         self.last = None;
     }
 
-    /// Asks for an evaluation unless it is what was asked for last. `revision` tells states of the network apart.
-    pub fn order(&mut self, revision: u64, network: &Network, request: Request) {
+    /// Asks for an evaluation unless it is what was asked for last. `revision` tells states of the network apart. An order in a
+    /// hurry ends the evaluation of one that is not.
+    pub fn order(&mut self, revision: u64, network: &Network, request: Request, in_a_hurry: bool) {
         let same = |(last, wanted, ray): &(u64, Request, Option<Ray>)| {
             *last == revision && *wanted == request && *ray == self.ray
         };
@@ -165,9 +193,13 @@ impl Engine {
             request: request.clone(),
             ray: ray.clone(),
             number: self.ordered,
+            in_a_hurry,
             refresh: std::mem::take(&mut self.refresh),
         };
         self.last = Some((revision, request, ray));
+        if in_a_hurry {
+            self.hurry.newest.store(self.ordered, Ordering::Relaxed);
+        }
         // A thread that ended says so by its silence: `is_busy` stays true and the status line shows it.
         let _ = self.tasks.send(Task::Evaluate(Box::new(order)));
     }
@@ -210,6 +242,8 @@ impl Engine {
 
 impl Drop for Engine {
     fn drop(&mut self) {
+        // Whatever is at work need not be finished.
+        self.hurry.newest.store(u64::MAX, Ordering::Relaxed);
         // A thread that has ended needs not to be told.
         let _ = self.tasks.send(Task::Stop);
         if let Some(thread) = self.thread.take() {
@@ -223,6 +257,7 @@ impl Drop for Engine {
 struct Telling {
     runner: Runner,
     news: Sender<News>,
+    hurry: Arc<Hurry>,
 }
 
 impl Backend for Telling {
@@ -230,6 +265,10 @@ impl Backend for Telling {
 
     fn facts(&self, data: &Data) -> Facts {
         self.runner.facts(data)
+    }
+
+    fn interrupted(&self) -> bool {
+        self.runner.interrupted()
     }
 
     fn process(&mut self, job: &Job<'_, Data>) -> Result<Outputs<Data>, ProcessError> {
@@ -282,8 +321,12 @@ fn work(mut backend: Telling, tasks: &Receiver<Task>, wake: &impl Fn()) {
                         other => waiting.push_back(other),
                     }
                 }
+                let patient = if order.in_a_hurry { 0 } else { order.number };
+                backend.hurry.patient.store(patient, Ordering::Relaxed);
                 let results = Box::new(evaluate(*order, &mut snippets, &mut evaluator, &mut backend));
-                if backend.news.send(News::Results(results)).is_err() {
+                backend.hurry.patient.store(0, Ordering::Relaxed);
+                // What interrupted it is the next order.
+                if !results.report.interrupted && backend.news.send(News::Results(results)).is_err() {
                     return;
                 }
             }

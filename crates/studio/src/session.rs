@@ -189,7 +189,8 @@ impl Session {
             self.document.settle();
         }
         let request = self.request();
-        self.engine.order(self.document.revision(), self.document.network(), request);
+        let in_a_hurry = self.quality.divisor() > 1;
+        self.engine.order(self.document.revision(), self.document.network(), request, in_a_hurry);
         self.display.end_frame();
         self.inspection.end_frame();
     }

@@ -118,6 +118,27 @@ fn a_drag_is_coarse_and_then_the_picture_is_what_the_command_line_renders() {
 }
 
 #[test]
+fn a_drag_ends_a_picture_that_takes_long() {
+    let mut window = quick();
+    // Some thousand samples a ray: many seconds on a software device.
+    window.state_mut().session.set("traversal", "sampling_rate", Value::Float(64.0));
+    window::wait_until(&mut window, |studio| studio.session.engine.running.as_deref() == Some("traversal"));
+    let long = window.state().session.engine.results.number + 1;
+    let middle = canvas(&window);
+    drag(&mut window, middle, &[Vec2::new(20.0, 5.0)]);
+    let (mut told, begun) = (Vec::new(), std::time::Instant::now());
+    while told.last().is_none_or(|number| *number <= long) {
+        window.step();
+        told.push(window.state().session.engine.results.number);
+        std::thread::sleep(std::time::Duration::from_millis(5));
+        assert!(begun.elapsed().as_secs() < 120, "no picture while it is dragged");
+    }
+    assert!(!told.contains(&long), "the long picture was finished");
+    let coarse = shown(&window).size();
+    assert!(coarse[0] < 500, "{coarse:?}");
+}
+
+#[test]
 fn the_frame_budget_lists_what_ran_and_what_was_kept_and_nodes_tell_what_is_stale() {
     let mut window = quick();
     window.state_mut().session.to_open.push(Pane::Budget);

@@ -306,3 +306,24 @@ fn layers_arrive_in_the_order_of_their_connections() {
     let how = &bench.evaluator.output("over", "image").unwrap().how;
     assert_eq!(how, "over(side(data()), view(proxy(data()), data()))");
 }
+
+#[test]
+fn an_interrupted_evaluation_keeps_what_ran_and_goes_on_where_it_was() {
+    let mut bench = Bench::new(pipeline());
+    bench.evaluate();
+    bench.evaluator.invalidate("view", Level::Result, "the disk changed");
+    bench.set("data", "channels", Value::Int(1));
+    bench.set("data", "extent", Value::Vector(vec![2.0; 3]));
+    bench.backend.interrupt = Some("view".into());
+    let report = bench.evaluate();
+    assert!(report.interrupted && !report.is_complete());
+    assert_eq!(report.ran(), ["data", "proxy"]);
+    assert!(report.failed.is_empty() && report.not_ready.is_empty(), "{report:?}");
+    assert!(bench.evaluator.last_run("view").is_some_and(|run| run.outcome == Outcome::Done));
+
+    (bench.backend.interrupt, bench.backend.interrupted) = (None, false);
+    let report = bench.evaluate();
+    assert_eq!(report.ran(), ["view", "filter", "canvas"]);
+    assert!(report.runs[0].why().contains("the disk changed"), "{}", report.runs[0].why());
+    assert!(report.is_complete() && bench.evaluate().runs.is_empty());
+}

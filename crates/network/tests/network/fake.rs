@@ -132,6 +132,9 @@ pub struct Counter {
     pub runs: BTreeMap<String, usize>,
     pub sizes: BTreeMap<String, [u32; 2]>,
     pub silent: bool,
+    /// The processor during whose run the evaluation is interrupted.
+    pub interrupt: Option<String>,
+    pub interrupted: bool,
 }
 
 impl Backend for Counter {
@@ -141,7 +144,15 @@ impl Backend for Counter {
         data.facts.clone()
     }
 
+    fn interrupted(&self) -> bool {
+        self.interrupted
+    }
+
     fn process(&mut self, job: &Job<'_, Made>) -> Result<Outputs<Made>, ProcessError> {
+        if self.interrupt.as_deref() == Some(job.id) {
+            self.interrupted = true;
+            return Err(ProcessError::new("interrupted"));
+        }
         *self.runs.entry(job.id.to_owned()).or_default() += 1;
         self.sizes.insert(job.id.to_owned(), job.size);
         if let Ok(message) = job.properties.text("fail")

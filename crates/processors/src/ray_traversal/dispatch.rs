@@ -132,15 +132,17 @@ impl Pass<'_> {
         });
         let [width, _] = self.inputs.view.size;
         pace.in_bands(self.inputs.view.size, GROUP, |rows| {
+            if context.interrupted() {
+                return Err(ProcessError::new("interrupted"));
+            }
             if let Some(frame) = frame {
                 let place = offset_of!(Frame, first_row) as u64;
                 context.gpu.queue.write_buffer(frame, place, bytes_of(&rows.start));
             }
             let groups = [width, rows.len() as u32].map(|pixels| pixels.div_ceil(GROUP));
             bound.submit(&context.gpu, groups, context.timer.compute_pass())?;
-            context.gpu.wait(&label)
-        })?;
-        Ok(())
+            Ok(context.gpu.wait(&label)?)
+        })
     }
 
     /// Fails when a loop of the user's own snippets did not end. Waits for the device, which is why it is asked of no others.
