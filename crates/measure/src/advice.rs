@@ -2,11 +2,16 @@
 
 use rayloom_reference::metrics::VISIBLE_ERROR;
 
-use crate::budget::GRADIENT;
 use crate::report::text::{milliseconds, number, percent};
 use crate::{Measured, Measurements, pareto::Point};
 
-/// A sentence or a few: the cheapest setting whose error cannot be seen, and what that means for the network as saved.
+/// The setting to choose: the cheapest whose error cannot be seen, else the most accurate.
+pub(crate) fn choice(measurements: &Measurements) -> Option<usize> {
+    let front = Front::of(measurements)?;
+    Some(front.unseen().unwrap_or_else(|| front.most_accurate()))
+}
+
+/// A sentence or a few: why [`choice`] is to be chosen, and what that means for the network as saved.
 pub(crate) fn advice(measurements: &Measurements) -> String {
     let Some(front) = Front::of(measurements) else {
         return "No setting was measured.".into();
@@ -22,10 +27,11 @@ pub(crate) fn advice(measurements: &Measurements) -> String {
             "No setting keeps the error of 99 % of the pixels below half a code of an 8-bit picture. The most accurate is {} \
              ({} of the pixels are visibly off){}.",
             quoted(&front.settings[front.most_accurate()]),
-            percent(front.settings[front.most_accurate()].errors.visible),
+            percent(front.settings[front.most_accurate()].all.errors.visible),
             front.costs(front.most_accurate())
         ),
     }];
+    sentences.extend(choice(measurements).and_then(|index| surface(&front.settings[index])));
     sentences.extend(saved(measurements, &front));
     sentences.extend(cause(measurements));
     sentences.join(" ")
@@ -51,7 +57,7 @@ impl<'a> Front<'a> {
 
     /// The cheapest whose errors are not seen; the network as saved rather than one whose times overlap with its.
     fn unseen(&self) -> Option<usize> {
-        let unseen = |index: &usize| self.settings[*index].errors.p99 <= VISIBLE_ERROR;
+        let unseen = |index: &usize| self.settings[*index].all.errors.p99 <= VISIBLE_ERROR;
         let cheapest = self.order.iter().copied().find(unseen)?;
         let saved = self.settings.iter().position(|one| one.setting.assignments.is_empty());
         Some(saved.filter(unseen).filter(|&saved| !self.clearly_cheaper(cheapest, saved)).unwrap_or(cheapest))
@@ -59,7 +65,7 @@ impl<'a> Front<'a> {
 
     /// Whether one setting costs less than another beyond the noise of timings.
     fn clearly_cheaper(&self, one: usize, other: usize) -> bool {
-        match (self.timed, self.settings[one].time_ms, self.settings[other].time_ms) {
+        match (self.timed, self.settings[one].all.time_ms, self.settings[other].all.time_ms) {
             (true, Some(one), Some(other)) => one.high < other.low,
             _ => self.points[one].cost < self.points[other].cost,
         }
@@ -79,11 +85,28 @@ impl<'a> Front<'a> {
 
     /// ", at 1.2 ms a picture".
     fn costs(&self, index: usize) -> String {
-        match (self.timed, self.settings[index].time_ms) {
+        match (self.timed, self.settings[index].all.time_ms) {
             (true, Some(time)) => format!(", at {} a picture", milliseconds(time.median)),
-            _ => format!(", with {} samples", number(self.settings[index].counts.samples as f64)),
+            _ => format!(", with {} samples", number(self.settings[index].all.counts.samples as f64)),
         }
     }
+}
+
+/// How well a setting meets the surface that it shows.
+fn surface(measured: &Measured) -> Option<String> {
+    let surface = measured.all.surface.as_ref()?;
+    let normals =
+        surface.normal.map(|normal| format!(", normals by {}\u{b0}", number(normal.rmse))).unwrap_or_default();
+    let silhouette = match surface.silhouette() {
+        0 => "no silhouette pixel is wrong".to_owned(),
+        1 => "one silhouette pixel is wrong".to_owned(),
+        more => format!("{more} silhouette pixels are wrong"),
+    };
+    Some(format!(
+        "The surface is off by {} voxels along the rays{normals} (RMS); {silhouette}, {} pixels show it.",
+        number(surface.distance.rmse),
+        number(surface.common as f64)
+    ))
 }
 
 /// How the network as saved does.
@@ -92,9 +115,12 @@ fn saved(measurements: &Measurements, front: &Front<'_>) -> Option<String> {
     if front.unseen() == Some(index) {
         return Some("That is how the network is saved.".into());
     }
-    let seen =
-        if front.settings[index].errors.p99 <= VISIBLE_ERROR { "errors that are not seen" } else { "visible errors" };
-    let found = format!("As saved it has {seen} ({} RMS)", number(front.settings[index].errors.rmse));
+    let seen = if front.settings[index].all.errors.p99 <= VISIBLE_ERROR {
+        "errors that are not seen"
+    } else {
+        "visible errors"
+    };
+    let found = format!("As saved it has {seen} ({} RMS)", number(front.settings[index].all.errors.rmse));
     let by = front.order.iter().rev().copied().find(|&other| front.clearly_beats(other, index));
     Some(match by {
         Some(by) => format!(
@@ -106,12 +132,16 @@ fn saved(measurements: &Measurements, front: &Front<'_>) -> Option<String> {
     })
 }
 
-/// What most of the error of the network as saved comes from. How gradients are estimated is a choice, not an error.
+/// What most of the error of the network as saved comes from: the cause without which the least of it is left. How gradients
+/// are estimated is a choice, not an error.
 fn cause(measurements: &Measurements) -> Option<String> {
-    let rows = measurements.budget.as_ref()?.rows.iter().filter(|row| row.cause != GRADIENT);
-    let sized = rows.filter_map(|row| Some((row.cause, row.change?.rmse)));
-    let (cause, rmse) = sized.max_by(|a, b| a.1.total_cmp(&b.1))?;
-    (rmse > 0.0).then(|| format!("Most of its error comes from the {cause}."))
+    /// A cause that explains less of the error than this is not the one.
+    const MOST: f64 = 0.7;
+    let whole = measurements.settings[measurements.saved()?].all.errors.rmse;
+    let rows = measurements.budget.as_ref()?.rows.iter();
+    let (cause, left) = rows.filter_map(|row| Some((row.cause, row.left?.rmse))).min_by(|a, b| a.1.total_cmp(&b.1))?;
+    (left < MOST * whole)
+        .then(|| format!("Most of its error comes from the {cause}: {} is left without.", number(left)))
 }
 
 fn quoted(measured: &Measured) -> String {
@@ -121,7 +151,7 @@ fn quoted(measured: &Measured) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Counts, Errors, Setting, Summary, setting::combinations};
+    use crate::{Counts, Displayed, Errors, Figures, Setting, Summary, setting::combinations};
 
     /// A setting with this error and times from `low` to `high`; the first one stands for the network as saved.
     fn measured(index: usize, error: f64, [low, high]: [f64; 2]) -> Measured {
@@ -132,7 +162,9 @@ mod tests {
         let errors =
             Errors { max: error, mean: error, rmse: error, p99: error, visible: 0.1, transmittance: error, worst: 0 };
         let time_ms = Some(Summary { median: 0.5 * (low + high), low, high });
-        Measured { setting, time_ms, counts: Counts::default(), errors, departs: false, notes: vec![], map: vec![] }
+        let displayed = Displayed { psnr: 40.0, ssim: 1.0, ciede2000: 0.0, flip: 0.0 };
+        let all = Figures { time_ms, counts: Counts::default(), errors, displayed, surface: None };
+        Measured { setting, all, views: vec![], departs: false, notes: vec![], map: vec![] }
     }
 
     fn advice_on(settings: &[(f64, [f64; 2])]) -> String {
@@ -154,8 +186,9 @@ mod tests {
             dominated: Default::default(),
             refused: vec![],
             budget: None,
+            chosen: None,
             advice: String::new(),
-            picture: vec![],
+            pictures: vec![],
         };
         measurements.compare();
         advice(&measurements)
@@ -163,6 +196,7 @@ mod tests {
 
     #[test]
     fn the_cheapest_unseen_error_is_chosen_and_noise_is_no_reason() {
+        assert_eq!(surface(&measured(0, 1e-4, [1.0, 2.0])), None);
         let cheaper = advice_on(&[(1e-4, [10.0, 12.0]), (1e-3, [4.0, 5.0]), (0.1, [1.0, 2.0])]);
         assert!(cheaper.starts_with("Choose \u{201c}x 1\u{201d}") && cheaper.contains("4.50 ms"), "{cheaper}");
         let noise = advice_on(&[(1e-3, [4.0, 6.0]), (1e-3, [3.0, 5.0])]);

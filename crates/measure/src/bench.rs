@@ -4,9 +4,13 @@ use std::time::Duration;
 
 use rayloom_gpu::Gpu;
 use rayloom_network::{Address, Camera, Evaluator, Level, Network, Report, Request, Sinks, Value};
-use rayloom_processors::{Data, Runner};
+use rayloom_processors::{Data, Picture, Runner};
+use serde_json::json;
 
 use crate::chain::Chain;
+use crate::figures::Shot;
+use crate::scene::compositing_of;
+use crate::surface::{Layers, NORMAL, Surface, surface};
 use crate::{Counts, MeasureError, Setting, Subject};
 
 /// Pixels in a row, premultiplied.
@@ -47,11 +51,11 @@ impl Bench {
     /// The picture as it is shown.
     pub fn picture(&mut self) -> Result<Pixels, MeasureError> {
         self.evaluate()?;
-        self.read()
+        Ok(self.read(&self.chain.image)?.pixels)
     }
 
-    /// The picture with what was counted and noted on the way.
-    pub fn counted_picture(&mut self) -> Result<(Pixels, Counts, Vec<String>), MeasureError> {
+    /// The picture with its surface, and what was counted and noted on the way.
+    pub fn shot(&mut self) -> Result<(Shot, Vec<String>), MeasureError> {
         self.runner.count_samples(true);
         self.again(Level::Shader);
         let report = self.evaluate();
@@ -62,7 +66,53 @@ impl Bench {
         let count = |key| run.and_then(|run| run.statistics.get(key)?.as_u64()).unwrap_or_default();
         let counts = Counts { rays: count("rays"), samples: count("samples"), contributing: count("contributing") };
         let notes = report.runs.iter().flat_map(|run| run.notes.clone()).collect();
-        Ok((self.read()?, counts, notes))
+        let picture = self.read(&self.chain.image)?;
+        let surface = self.surface(&picture)?;
+        Ok((Shot { pixels: picture.pixels, surface, counts }, notes))
+    }
+
+    /// The picture with its surface.
+    pub fn seen(&mut self) -> Result<(Pixels, Option<Surface>), MeasureError> {
+        self.evaluate()?;
+        let picture = self.read(&self.chain.image)?;
+        let surface = self.surface(&picture)?;
+        Ok((picture.pixels, surface))
+    }
+
+    /// The mean voxel spacing in world units.
+    pub fn voxel(&mut self) -> Result<f64, MeasureError> {
+        let port = self.chain.volume.clone();
+        self.bring(vec![port.clone()])?;
+        match self.evaluator.output(&port.processor, &port.item) {
+            Some(Data::Volume(data)) => Ok(data.volume.index_to_world.matrix3.determinant().abs().cbrt()),
+            _ => Err(MeasureError::Evaluation(format!("{port} holds no volume."))),
+        }
+    }
+
+    /// The surface in a picture of the network as it is set.
+    fn surface(&mut self, picture: &Picture) -> Result<Option<Surface>, MeasureError> {
+        Ok(match Layers::of(&self.network, &self.chain) {
+            None => None,
+            Some(Layers::Depth) => surface(picture, None),
+            Some(Layers::Normals) => surface(picture, Some(&picture.pixels)),
+            Some(Layers::ProbedNormals) => surface(picture, Some(&self.normals()?)),
+        })
+    }
+
+    /// The normals of an isosurface, on an outport beside that of the picture.
+    fn normals(&mut self) -> Result<Pixels, MeasureError> {
+        let (id, own) = (self.chain.traversal().to_owned(), compositing_of(&self.chain.image.item));
+        let number = if own == "compositing2" { 3 } else { 2 };
+        let isovalue = self.network.value(&id, &format!("{own}.isovalue")).map(|value| value.to_json());
+        let network = self.network.clone();
+        let slot = format!("compositing{number}");
+        self.network.set_from_json(&id, "target", &json!("32-bit"))?;
+        self.network.set_from_json(&id, &format!("{slot}.text"), &json!(NORMAL))?;
+        self.network.set_from_json(&id, &format!("{slot}.isovalue"), &isovalue.unwrap_or_default())?;
+        let port = Address::new(&id, &format!("image{number}"));
+        let found = self.bring(vec![port.clone()]).and_then(|_| self.read(&port));
+        self.network = network;
+        Ok(found?.pixels)
     }
 
     /// Milliseconds on the device for entry points and rays; everything else is ready before. `None` where it cannot be told.
@@ -106,10 +156,9 @@ impl Bench {
         }
     }
 
-    fn read(&self) -> Result<Pixels, MeasureError> {
-        let image = &self.chain.image;
+    fn read(&self, image: &Address) -> Result<Picture, MeasureError> {
         match self.evaluator.output(&image.processor, &image.item) {
-            Some(Data::Image(picture)) => Ok(picture.read_back(&self.runner.context)?.pixels),
+            Some(Data::Image(picture)) => Ok(picture.read_back(&self.runner.context)?),
             _ => Err(MeasureError::Evaluation(format!("{image} holds no image."))),
         }
     }

@@ -34,6 +34,14 @@ pub struct Row {
     pub switch: String,
     /// How much the picture changes with the switch; `None` where there is nothing to switch.
     pub change: Option<Errors>,
+    /// The error that is left with the switch, against the reference; `None` where that stands for something else.
+    pub left: Option<Errors>,
+}
+
+impl Row {
+    fn unswitched(cause: &'static str, why: String) -> Self {
+        Self { cause, switch: why, change: None, left: None }
+    }
 }
 
 /// A switch: what it is called, on which processor, which property, and the value without that error.
@@ -44,12 +52,20 @@ struct Switch<'a> {
     best: Json,
 }
 
-/// Measures the causes of the saved network's error over the views. `own` are its pictures in a row.
+/// The network as saved, all views in a row.
+#[derive(Clone, Copy)]
+pub(crate) struct Saved<'a> {
+    pub pictures: &'a [[f32; 4]],
+    /// What its pictures, and those of all settings, are compared with.
+    pub reference: Option<&'a [[f64; 4]]>,
+}
+
+/// Measures the causes of the saved network's error over the views.
 pub(crate) fn budget(
     network: &Network,
     bench: &mut Bench,
     views: &[Camera],
-    own: &[[f32; 4]],
+    saved: Saved<'_>,
     cache: &Cache,
     listener: Listener<'_>,
 ) -> Result<Budget, MeasureError> {
@@ -75,7 +91,7 @@ pub(crate) fn budget(
     let mut rows = Vec::new();
     for (index, switch) in switches.iter().enumerate() {
         listener(&format!("error budget: {}", switch.cause), index as f64 / switches.len() as f64);
-        rows.push(row(network, bench, views, own, switch)?);
+        rows.push(row(network, bench, views, saved, switch)?);
     }
     rows.push(round_off(network, bench, views, cache, listener)?);
     let not_separated = vec![
@@ -107,23 +123,30 @@ fn row(
     network: &Network,
     bench: &mut Bench,
     views: &[Camera],
-    own: &[[f32; 4]],
+    saved: Saved<'_>,
     switch: &Switch<'_>,
 ) -> Result<Row, MeasureError> {
     let Switch { cause, processor: Some(processor), property, best } = switch else {
-        return Ok(Row { cause: switch.cause, switch: "nothing to switch".into(), change: None });
+        return Ok(Row::unswitched(switch.cause, "nothing to switch".into()));
     };
     let found = network.value(processor, property).map(|value| value.to_json()).unwrap_or_default();
     let plain = crate::setting::plain;
     if found == *best {
         let switch = format!("{property} is {} already", plain(&found));
-        return Ok(Row { cause, switch, change: None });
+        return Ok(Row::unswitched(cause, switch));
     }
     let setting = Setting { name: (*cause).into(), assignments: vec![assignment(processor, property, best.clone())] };
     let switch = format!("{property} {} \u{2192} {}", plain(&found), plain(best));
     match pictures(bench, &setting, views) {
-        Ok(switched) => Ok(Row { cause, switch, change: Some(Errors::of(own, &widened(&switched))?.0) }),
-        Err(MeasureError::Evaluation(reason)) => Ok(Row { cause, switch: format!("{switch}: {reason}"), change: None }),
+        Ok(switched) => {
+            let change = Some(Errors::of(saved.pictures, &widened(&switched))?.0);
+            let left = match saved.reference {
+                Some(reference) if *cause != GRADIENT => Some(Errors::of(&switched, reference)?.0),
+                _ => None,
+            };
+            Ok(Row { cause, switch, change, left })
+        }
+        Err(MeasureError::Evaluation(reason)) => Ok(Row::unswitched(cause, format!("{switch}: {reason}"))),
         Err(other) => Err(other),
     }
 }
@@ -143,9 +166,10 @@ fn round_off(
         Ok(reference) => {
             let found = pictures(bench, &setting, views)?;
             let switch = "32-bit storage \u{2192} the same samples in float64".to_owned();
-            Ok(Row { cause, switch, change: Some(Errors::of(&found, &reference)?.0) })
+            let reference = crate::figures::row(&reference, |view| &view.pixels);
+            Ok(Row { cause, switch, change: Some(Errors::of(&found, &reference)?.0), left: None })
         }
-        Err(MeasureError::Refusal(refusal)) => Ok(Row { cause, switch: refusal.to_string(), change: None }),
+        Err(MeasureError::Refusal(refusal)) => Ok(Row::unswitched(cause, refusal.to_string())),
         Err(other) => Err(other),
     }
 }

@@ -12,6 +12,8 @@ enum Owner {
     Traversal,
     View,
     Source,
+    /// What feeds the traversal, where that is a gradient volume.
+    Gradients,
 }
 
 /// A property and the values worth trying.
@@ -40,7 +42,7 @@ const fn knob(label: &'static str, owner: Owner, property: &'static str, values:
 }
 
 /// All ladders.
-pub const LADDERS: [Ladder; 10] = [
+pub const LADDERS: [Ladder; 13] = [
     Ladder {
         name: "quality",
         help: "sampling rate and early termination together, from a preview to a still picture",
@@ -63,6 +65,16 @@ pub const LADDERS: [Ladder; 10] = [
             "sampling_rate",
             &["0.125", "0.25", "0.5", "1.0", "2.0", "4.0", "8.0", "16.0"],
         )],
+    },
+    Ladder {
+        name: "jitter",
+        help: "noise in place of rings",
+        knobs: &[knob("jitter", Owner::Traversal, "jitter", &["false", "true"])],
+    },
+    Ladder {
+        name: "pixel_rate",
+        help: "rays per pixel edge",
+        knobs: &[knob("pixel rate", Owner::Traversal, "pixel_rate", &["0.25", "0.5", "1.0", "2.0"])],
     },
     Ladder {
         name: "integrator",
@@ -93,6 +105,11 @@ pub const LADDERS: [Ladder; 10] = [
             "gradient",
             &["central", "forward", "backward", "central4", "sobel", "filtered", "precomputed"],
         )],
+    },
+    Ladder {
+        name: "gradients",
+        help: "storage of precomputed gradients",
+        knobs: &[knob("gradients", Owner::Gradients, "storage", &["32-bit", "16-bit", "8-bit"])],
     },
     Ladder {
         name: "entry",
@@ -141,6 +158,8 @@ fn setting(ladder: &Ladder, rung: usize, network: &Network, chain: &Chain) -> Op
             Owner::Traversal => chain.traversal(),
             Owner::View => &chain.view,
             Owner::Source => chain.source.as_deref()?,
+            // No other processor that gives volumes has a `storage`.
+            Owner::Gradients => &chain.volume.processor,
         };
         let processor = network.processor(owner)?;
         let (decl, own) = (processor.property_decl(knob.property)?, processor.value(knob.property)?);
@@ -155,7 +174,8 @@ fn setting(ladder: &Ladder, rung: usize, network: &Network, chain: &Chain) -> Op
     Some(Setting { name: names.join(", "), assignments })
 }
 
-fn reads_gradient(network: &Network, traversal: &str) -> bool {
+/// Whether a ray traversal lights or classifies by the gradient.
+pub(crate) fn reads_gradient(network: &Network, traversal: &str) -> bool {
     let is = |property: &str, id: &str| matches!(network.value(traversal, property), Some(rayloom_network::Value::Text(found)) if found == id);
     !is("shading", "none") || is("classification", "transfer_function_2d")
 }

@@ -7,52 +7,18 @@ use serde_json::Value as Json;
 
 use crate::budget::Budget;
 use crate::pareto::{self, Point};
-use crate::{Errors, Setting};
-
-/// Median and spread of some timings, milliseconds.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Summary {
-    /// Middle value.
-    pub median: f64,
-    /// 5 % lie below.
-    pub low: f64,
-    /// 5 % lie above.
-    pub high: f64,
-}
-
-impl Summary {
-    /// Of some timings; `None` for none.
-    pub fn of(timings: &[f64]) -> Option<Self> {
-        let mut sorted = timings.to_vec();
-        sorted.sort_by(f64::total_cmp);
-        let last = sorted.len().checked_sub(1)?;
-        let at = |share: f64| sorted[(last as f64 * share).round() as usize];
-        Some(Self { median: at(0.5), low: at(0.05), high: at(0.95) })
-    }
-}
-
-/// What a ray traversal counted, over all views.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-pub struct Counts {
-    /// Rays that met the volume.
-    pub rays: u64,
-    /// Samples that were taken.
-    pub samples: u64,
-    /// Samples that changed the picture.
-    pub contributing: u64,
-}
+use crate::{Figures, Setting};
 
 /// A setting and what it was found to cost and to give.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Measured {
     /// The setting.
     pub setting: Setting,
-    /// Time on the device for entry points and rays of one picture, over all views and rounds; `None` where it cannot be told.
-    pub time_ms: Option<Summary>,
-    /// Samples of all views.
-    pub counts: Counts,
-    /// Errors over all views.
-    pub errors: Errors,
+    /// Costs and errors over all views.
+    #[serde(flatten)]
+    pub all: Figures,
+    /// The same view by view.
+    pub views: Vec<Figures>,
     /// Whether the setting stands for another picture than the network as saved (another interpolation, another gradient), so
     /// that its errors are a departure and not a price. Only the exact reference can tell.
     pub departs: bool,
@@ -107,23 +73,28 @@ pub struct Measurements {
     pub refused: Vec<Refused>,
     /// The error of the network as saved, by causes.
     pub budget: Option<Budget>,
-    /// What to choose.
+    /// Index of the setting to choose.
+    pub chosen: Option<usize>,
+    /// Why, and what it means for the network as saved.
     pub advice: String,
-    /// The reference of the first view.
+    /// The references, view by view; those of the network as saved, if every setting has its own.
     #[serde(skip)]
-    pub picture: Vec<[f64; 4]>,
+    pub pictures: Vec<Vec<[f64; 4]>>,
 }
 
 impl Measurements {
     /// Time and error of every setting; the time is not finite where it is not known.
     pub fn by_time(&self) -> Vec<Point> {
-        let cost = |one: &Measured| one.time_ms.map_or(f64::INFINITY, |time| time.median);
-        self.settings.iter().map(|one| Point { cost: cost(one), error: one.errors.rmse }).collect()
+        let cost = |one: &Measured| one.all.time_ms.map_or(f64::INFINITY, |time| time.median);
+        self.settings.iter().map(|one| Point { cost: cost(one), error: one.all.errors.rmse }).collect()
     }
 
     /// Samples and error of every setting.
     pub fn by_samples(&self) -> Vec<Point> {
-        self.settings.iter().map(|one| Point { cost: one.counts.samples as f64, error: one.errors.rmse }).collect()
+        self.settings
+            .iter()
+            .map(|one| Point { cost: one.all.counts.samples as f64, error: one.all.errors.rmse })
+            .collect()
     }
 
     /// Fills in the fronts and what is dominated. Settings that depart from what the network stands for take no part.
@@ -138,6 +109,11 @@ impl Measurements {
         let dominated = (0..time.len()).filter_map(dominator).collect();
         (self.front_time, self.front_samples, self.dominated) =
             (pareto::front(&time), pareto::front(&samples), dominated);
+    }
+
+    /// Whether any setting shows a surface that could be compared.
+    pub(crate) fn has_surface(&self) -> bool {
+        self.settings.iter().any(|one| one.all.surface.is_some())
     }
 
     /// The network as saved, if it can be rendered.

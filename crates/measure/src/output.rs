@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::{MeasureError, Measurements, csv, report};
 
-/// Writes `measurements.csv`, `measurements.json` and `report.html` into a folder, which is made if it is not there, and
+/// Writes `measurements.csv`, `views.csv`, `measurements.json` and `report.html` into a folder, which is made if it is not there, and
 /// returns their paths.
 ///
 /// # Errors
@@ -12,7 +12,8 @@ use crate::{MeasureError, Measurements, csv, report};
 pub fn write_all(folder: &Path, measurements: &Measurements) -> Result<Vec<PathBuf>, MeasureError> {
     let json = serde_json::to_string_pretty(measurements)? + "\n";
     let files = [
-        ("measurements.csv", csv::csv(measurements)),
+        ("measurements.csv", csv::settings(measurements)),
+        ("views.csv", csv::views(measurements)),
         ("measurements.json", json),
         ("report.html", report::page(measurements)?),
     ];

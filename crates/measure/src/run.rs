@@ -6,9 +6,10 @@ use rayloom_reference::Cache;
 
 use crate::bench::Bench;
 use crate::chain::Chain;
+use crate::figures::{Expected, row};
 use crate::views::views;
 use crate::yardstick::{Standard, Yardstick, choose, finest};
-use crate::{Counts, Errors, Listener, MeasureError, Measured, Measurements, Plan, Refused, Setting, Subject, Summary};
+use crate::{Figures, Listener, MeasureError, Measured, Measurements, Plan, Refused, Setting, Subject, Summary};
 use crate::{advice, budget};
 
 /// Lowest sampling rate of the finest setting.
@@ -43,10 +44,15 @@ pub fn measure(
     let (standard, refusal) = choose(plan.standard, &mut bench)?;
     let yardstick = Yardstick { standard, cache, listener, finest };
     let compared = compare(&mut bench, &yardstick, settings, &views)?;
-    let Compared { mut settings, refused, own, picture } = compared;
+    let Compared { mut settings, refused, own, expected } = compared;
     time(&mut bench, &mut settings, &views, plan.rounds, listener)?;
     let budget = match plan.budget && !own.is_empty() {
-        true => Some(budget::budget(network, &mut bench, &views, &own, cache, listener)?),
+        true => {
+            // Of the same samples every setting has its own reference.
+            let reference = (standard != Standard::SameSamples).then(|| row(&expected, |view| &view.pixels));
+            let saved = budget::Saved { pictures: &own, reference: reference.as_deref() };
+            Some(budget::budget(network, &mut bench, &views, saved, cache, listener)?)
+        }
         false => None,
     };
     let note = refusal.map(|refusal| format!(" Not with the exact picture: {refusal}")).unwrap_or_default();
@@ -67,10 +73,12 @@ pub fn measure(
         dominated: Default::default(),
         refused,
         budget,
+        chosen: None,
         advice: String::new(),
-        picture,
+        pictures: expected.into_iter().map(|view| view.pixels).collect(),
     };
     measurements.compare();
+    measurements.chosen = advice::choice(&measurements);
     measurements.advice = advice::advice(&measurements);
     Ok(measurements)
 }
@@ -91,8 +99,8 @@ struct Compared {
     refused: Vec<Refused>,
     /// Pictures of the network as saved, view by view; empty if it cannot be rendered.
     own: Vec<[f32; 4]>,
-    /// The reference of the first view.
-    picture: Vec<[f64; 4]>,
+    /// The references.
+    expected: Vec<Expected>,
 }
 
 fn compare(
@@ -106,12 +114,12 @@ fn compare(
         true => Vec::new(),
         false => yardstick.draw(bench, &Setting::saved(), views)?,
     };
-    let mut result = Compared { settings: Vec::new(), refused: Vec::new(), own: Vec::new(), picture: Vec::new() };
+    let mut result = Compared { settings: Vec::new(), refused: Vec::new(), own: Vec::new(), expected: Vec::new() };
     let meant = match yardstick.standard == Standard::Exact {
         true => Some(meaning(bench, &Setting::saved(), views)?),
         false => None,
     };
-    let count = settings.len();
+    let (count, voxel) = (settings.len(), bench.voxel()?);
     for (index, setting) in settings.into_iter().enumerate() {
         (yardstick.listener)(&format!("comparing: {}", setting.name), index as f64 / count as f64);
         if own_samples {
@@ -123,7 +131,7 @@ fn compare(
                 }
             }
         }
-        match compare_one(bench, &setting, views, &common) {
+        match compare_one(bench, &setting, views, &common, voxel) {
             Ok((mut measured, pixels)) => {
                 measured.departs = match &meant {
                     Some(meant) => departs(bench, &setting, views, meant)?,
@@ -132,13 +140,16 @@ fn compare(
                 if setting.assignments.is_empty() {
                     result.own = pixels;
                 }
-                if result.picture.is_empty() {
-                    result.picture = common[..common.len() / views.len()].to_vec();
-                }
                 result.settings.push(measured);
+                if own_samples && result.expected.is_empty() {
+                    result.expected = std::mem::take(&mut common);
+                }
             }
             Err(error) => result.refused.push(Refused { setting, reason: refusable(error)? }),
         }
+    }
+    if !own_samples {
+        result.expected = common;
     }
     match result.settings.is_empty() {
         true => Err(MeasureError::AllRefused(
@@ -180,24 +191,24 @@ fn compare_one(
     bench: &mut Bench,
     setting: &Setting,
     views: &[Camera],
-    reference: &[[f64; 4]],
+    expected: &[Expected],
+    voxel: f64,
 ) -> Result<(Measured, Vec<[f32; 4]>), MeasureError> {
-    let (mut pixels, mut total, mut notes) = (Vec::new(), Counts::default(), Vec::new());
+    let (mut shots, mut notes) = (Vec::new(), Vec::new());
     for view in views {
         bench.set(setting, view)?;
-        let (picture, counts, noted) = bench.counted_picture()?;
-        pixels.extend(picture);
-        total.rays += counts.rays;
-        total.samples += counts.samples;
-        total.contributing += counts.contributing;
+        let (shot, noted) = bench.shot()?;
+        shots.push(shot);
         notes.extend(noted);
     }
     notes.sort();
     notes.dedup();
-    let (errors, each) = Errors::of(&pixels, reference)?;
-    let map = each[..each.len() / views.len()].iter().map(|&error| error as f32).collect();
-    let setting = setting.clone();
-    Ok((Measured { setting, time_ms: None, counts: total, errors, departs: false, notes, map }, pixels))
+    let (views, maps): (Vec<Figures>, Vec<Vec<f64>>) =
+        Figures::of_views(&shots, expected, bench.size, voxel)?.into_iter().unzip();
+    let all = Figures::over(&shots, expected, &views, voxel)?;
+    let map = maps.into_iter().next().unwrap_or_default().into_iter().map(|error| error as f32).collect();
+    let measured = Measured { setting: setting.clone(), all, views, departs: false, notes, map };
+    Ok((measured, row(&shots, |shot| &shot.pixels)))
 }
 
 /// Times all settings, taking turns.
@@ -209,19 +220,22 @@ fn time(
     listener: Listener<'_>,
 ) -> Result<(), MeasureError> {
     let rounds = rounds.max(1);
-    let mut timings = vec![Vec::new(); settings.len()];
+    let mut timings = vec![vec![Vec::new(); views.len()]; settings.len()];
     for round in 0..rounds {
         for (number, view) in views.iter().enumerate() {
             let share = (round * views.len() + number) as f64 / (rounds * views.len()) as f64;
             listener(&format!("timing: round {} of {rounds}", round + 1), share);
             for (measured, timings) in settings.iter().zip(&mut timings) {
                 bench.set(&measured.setting, view)?;
-                timings.extend(bench.time()?);
+                timings[number].extend(bench.time()?);
             }
         }
     }
     for (measured, timings) in settings.iter_mut().zip(&timings) {
-        measured.time_ms = Summary::of(timings);
+        measured.all.time_ms = Summary::of(&timings.concat());
+        for (figures, timings) in measured.views.iter_mut().zip(timings) {
+            figures.time_ms = Summary::of(timings);
+        }
     }
     Ok(())
 }

@@ -148,7 +148,7 @@ fn same_values(a: &Arc<Volume>, b: &Arc<Volume>) -> bool {
 }
 
 /// The property that chooses the compositing of an outport.
-fn compositing_of(outport: &str) -> String {
+pub(crate) fn compositing_of(outport: &str) -> String {
     format!("compositing{}", outport.trim_start_matches("image"))
 }
 

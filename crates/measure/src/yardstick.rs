@@ -3,12 +3,14 @@
 use std::ops::ControlFlow;
 
 use rayloom_network::{Address, Camera, Network, Value};
-use rayloom_reference::{Cache, Reference};
+use rayloom_reference::{Cache, Method, Reference, surface_points};
 use serde_json::{Value as Json, json};
 
 use crate::bench::Bench;
 use crate::chain::Chain;
+use crate::figures::Expected;
 use crate::setting::Assignment;
+use crate::surface::Surface;
 use crate::{Listener, MeasureError, Refusal, Setting};
 
 /// The choice of a reference.
@@ -64,24 +66,22 @@ pub(crate) struct Yardstick<'a> {
 }
 
 impl Yardstick<'_> {
-    /// The references of all views in a row, for one setting.
-    pub fn draw(&self, bench: &mut Bench, setting: &Setting, views: &[Camera]) -> Result<Vec<[f64; 4]>, MeasureError> {
-        let mut pixels = Vec::new();
-        for (index, view) in views.iter().enumerate() {
+    /// The references of all views for one setting.
+    pub fn draw(&self, bench: &mut Bench, setting: &Setting, views: &[Camera]) -> Result<Vec<Expected>, MeasureError> {
+        let view = |(index, view): (usize, &Camera)| {
             let what = format!("reference of view {} of {}", index + 1, views.len());
             match self.standard {
-                Standard::Exact => pixels.extend(self.reference(bench, Reference::Exact, setting, view, &what)?),
-                Standard::SameSamples => {
-                    pixels.extend(self.reference(bench, Reference::SameSamples, setting, view, &what)?);
-                }
+                Standard::Exact => self.reference(bench, Reference::Exact, setting, view, &what),
+                Standard::SameSamples => self.reference(bench, Reference::SameSamples, setting, view, &what),
                 Standard::Finest => {
                     (self.listener)(&what, 0.0);
                     bench.set(&self.finest, view)?;
-                    pixels.extend(bench.picture()?.into_iter().map(|pixel| pixel.map(f64::from)));
+                    let (pixels, surface) = bench.seen()?;
+                    Ok(Expected { pixels: pixels.into_iter().map(|pixel| pixel.map(f64::from)).collect(), surface })
                 }
             }
-        }
-        Ok(pixels)
+        };
+        views.iter().enumerate().map(view).collect()
     }
 
     fn reference(
@@ -91,7 +91,7 @@ impl Yardstick<'_> {
         setting: &Setting,
         view: &Camera,
         what: &str,
-    ) -> Result<Vec<[f64; 4]>, MeasureError> {
+    ) -> Result<Expected, MeasureError> {
         bench.set(setting, view)?;
         let subject = bench.subject()?;
         subject.check(reference)?;
@@ -99,7 +99,15 @@ impl Yardstick<'_> {
             (self.listener)(what, share);
             ControlFlow::Continue(())
         };
-        Ok(self.cache.render(reference, &subject.scene(), None, &progress)?.image.color)
+        let scene = subject.scene();
+        let image = self.cache.render(reference, &scene, None, &progress)?.image;
+        let surface = match scene.method {
+            Method::Isosurface { .. } => {
+                Some(Surface { points: surface_points(&scene, &image)?, normals: scene.shading.is_some() })
+            }
+            _ => None,
+        };
+        Ok(Expected { pixels: image.color, surface })
     }
 }
 

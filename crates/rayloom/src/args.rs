@@ -133,8 +133,9 @@ pub struct MeasureArgs {
     /// Vary a property; may be repeated: every combination of the values is measured.
     #[arg(long, value_name = "PROCESSOR.PROPERTY=A,B,C", value_parser = vary)]
     pub vary: Vec<Vary>,
-    /// Vary a ready knob around the network's own setting; may be repeated: quality, rate, integrator, sampling,
-    /// gradient, entry, volume, target, termination, skipping, or all, which is what happens when nothing is varied.
+    /// Vary a ready knob around the network's own setting; may be repeated: quality, rate, jitter, pixel_rate, integrator,
+    /// sampling, gradient, gradients (storage of precomputed ones), entry, volume, target, termination, skipping, or all,
+    /// which is what happens when nothing is varied.
     #[arg(long, value_name = "NAME")]
     pub ladder: Vec<String>,
     /// Number of camera views: the saved one and orbits around its focus.
@@ -159,7 +160,7 @@ pub struct MeasureArgs {
     /// Leave out the table that splits the error into its causes.
     #[arg(long)]
     pub no_budget: bool,
-    /// The folder for measurements.csv, measurements.json and report.html; made if it is not there.
+    /// The folder for measurements.csv, views.csv, measurements.json and report.html; made if it is not there.
     #[arg(short, long, value_name = "FOLDER")]
     pub output: PathBuf,
 }

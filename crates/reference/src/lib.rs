@@ -34,6 +34,7 @@ pub mod scene;
 pub mod shading;
 pub mod special;
 mod spline;
+mod surface;
 
 pub use cache::{Cache, Cached, Source};
 pub use camera::{Camera, Projection};
@@ -43,3 +44,4 @@ pub use prepared::SurfaceHit;
 pub use progress::{Progress, RenderError, unattended};
 pub use reference::Reference;
 pub use scene::{Method, Refinement, Scene, SceneError};
+pub use surface::surface_points;

@@ -77,6 +77,12 @@ impl<'a> Prepared<'a> {
         SurfaceHit { texture, world, normal: self.normal(self.gradient(texture)), depth }
     }
 
+    /// The surface that the ray of a pixel meets at a view depth.
+    pub(crate) fn surface_seen(&self, x: u32, y: u32, depth: f64) -> SurfaceHit {
+        let world = self.view.ray(x, y).at(depth);
+        self.surface_at(self.world_to_texture.transform_point3(world), depth)
+    }
+
     /// Straight `color` at texture coordinates, lit as the scene asks for.
     pub(crate) fn lit(&self, color: [f64; 3], texture: DVec3, ray: &Ray) -> [f64; 3] {
         let Some(shading) = &self.scene.shading else { return color };

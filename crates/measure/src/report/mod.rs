@@ -6,6 +6,7 @@ mod plot;
 pub(crate) mod style;
 mod tables;
 pub(crate) mod text;
+mod views;
 
 use std::fmt::Write;
 
@@ -27,9 +28,12 @@ pub(crate) fn page(measurements: &Measurements) -> Result<String, MeasureError> 
         plots(measurements),
         tables::settings(measurements),
         tables::dominated(measurements),
+        views::displayed(measurements),
+        views::surfaces(measurements),
         tables::refused(measurements),
         measurements.budget.as_ref().map(|budget| tables::budget(budget, measurements)).unwrap_or_default(),
         maps(measurements)?,
+        views::by_view(measurements)?,
         tables::conditions(measurements),
     ];
     Ok(format!(
@@ -42,7 +46,8 @@ pub(crate) fn page(measurements: &Measurements) -> Result<String, MeasureError> 
 }
 
 fn head(name: &str, measurements: &Measurements) -> Result<String, MeasureError> {
-    let picture = picture::picture(measurements.size, &measurements.picture)?;
+    let first = measurements.pictures.first().map(Vec::as_slice).unwrap_or_default();
+    let picture = picture::picture(measurements.size, first)?;
     Ok(format!(
         "<header><div><p class=\"over\">Speed and accuracy</p><h1>{name}</h1><p class=\"advice\">{}</p><p class=\"quiet\">{}</p>\
          </div><figure><img src=\"{picture}\" alt=\"The reference picture of the first view\"><figcaption>The reference, first \
@@ -74,7 +79,7 @@ fn plots(measurements: &Measurements) -> String {
     format!(
         "<section><h2>What accuracy costs</h2><div class=\"pair\"><figure>{time}<figcaption>Error against time. Bars: 5 to \
          95 % of the timings.</figcaption></figure><figure>{}<figcaption>Error against samples, whatever the \
-         machine.</figcaption></figure></div><p class=\"legend\"><span><i class=\"dot best\"></i>on the front: nothing else is both \
+         machine.</figcaption></figure></div><p class=\"legend\"><span><i class=\"dot halo\"></i>choose this</span><span><i class=\"dot best\"></i>on the front: nothing else is both \
          cheaper and more accurate</span><span><i class=\"dot other\"></i>beaten by the front</span><span><i class=\"dot \
          departing\"></i>stands for another picture</span><span><i class=\"dot ring\"></i>as saved</span></p></section>",
         by_samples.svg()

@@ -103,7 +103,7 @@ impl Plot<'_> {
             let measured = &self.measurements.settings[i];
             let (px, py) = (x.at(self.points[i].cost), y.at(self.points[i].error));
             let on_front = self.front.contains(&i);
-            if let (true, Some(time)) = (self.spread, measured.time_ms) {
+            if let (true, Some(time)) = (self.spread, measured.all.time_ms) {
                 let _ = write!(
                     svg,
                     "<path class=\"spread{}\" d=\"M{:.1} {py:.1}H{:.1}\"/>",
@@ -111,6 +111,9 @@ impl Plot<'_> {
                     x.at(time.low),
                     x.at(time.high)
                 );
+            }
+            if self.measurements.chosen == Some(i) {
+                let _ = write!(svg, "<circle class=\"chosen\" cx=\"{px:.1}\" cy=\"{py:.1}\" r=\"12\"/>");
             }
             if measured.setting.assignments.is_empty() {
                 let _ = write!(svg, "<circle class=\"saved\" cx=\"{px:.1}\" cy=\"{py:.1}\" r=\"9\"/>");
@@ -133,10 +136,12 @@ impl Plot<'_> {
         taken
     }
 
-    /// Names of the front, each where it covers nothing else; of the others only the network as saved.
+    /// Names of what to choose and of the front, each where it covers nothing else; of the others only the network as saved.
     fn labels(&self, svg: &mut String, x: Axis, y: Axis, taken: &mut Vec<Taken>) {
         let saved = self.measurements.saved().filter(|i| !self.front.contains(i) && self.points[*i].cost.is_finite());
-        for &i in self.front.iter().chain(saved.iter()) {
+        let chosen = self.measurements.chosen;
+        let others = self.front.iter().chain(saved.iter()).filter(|i| Some(**i) != chosen);
+        for &i in chosen.iter().filter(|i| self.points[**i].cost.is_finite()).chain(others) {
             let name = &self.measurements.settings[i].setting.name;
             let (px, py) = (x.at(self.points[i].cost), y.at(self.points[i].error));
             let Some((at, anchor)) = place(px, py, name.chars().count() as f64 * LETTER[0], taken) else { continue };

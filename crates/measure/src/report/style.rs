@@ -18,7 +18,7 @@ figcaption{color:var(--quiet);font-size:13px;margin-top:6px}
 header img{width:100%;border-radius:10px;display:block}
 .pair{display:grid;grid-template-columns:repeat(2,minmax(0,1fr));gap:22px}
 svg{width:100%;height:auto;display:block}
-svg text{font-family:inherit;font-size:11.5px;fill:var(--ink)}
+svg text{font-family:inherit;font-size:11.5px}
 svg .tick{fill:var(--quiet);font-size:11px}
 svg .axis{fill:var(--quiet);font-size:12px}
 svg .grid{stroke:var(--line);stroke-width:1;fill:none}
@@ -27,14 +27,17 @@ svg .best{fill:var(--best)}
 svg .other{fill:var(--other);opacity:.75}
 svg .spread{stroke:var(--other);stroke-width:1.5;opacity:.5}
 svg .spread.best{stroke:var(--best)}
+svg .chosen{fill:var(--best);opacity:.2}
 svg .saved{fill:none;stroke:var(--ink);stroke-width:1.4}
-svg .name{font-weight:600;paint-order:stroke;stroke:#fff;stroke-width:3px;stroke-linejoin:round}
+svg .name{font-weight:600;fill:var(--ink);paint-order:stroke;stroke:#fff;stroke-width:3px;stroke-linejoin:round}
 svg .other-name{font-weight:400;fill:var(--quiet)}
 .dot{display:inline-block;width:9px;height:9px;border-radius:50%;vertical-align:0}
 .legend{display:flex;flex-wrap:wrap;gap:4px 26px;color:var(--quiet);font-size:13px;margin:14px 0 0}
 .legend i{margin-right:7px}
 svg .departing{fill:#fff;stroke:var(--other);stroke-width:1.4}
 .dot.departing{border:1.5px solid var(--other)}
+.dot.halo{background:var(--best);opacity:.25;width:14px;height:14px;vertical-align:-3px}
+.choice{background:var(--best);color:#fff;border-radius:9px;padding:1px 8px;font-size:11px;font-weight:600;margin-left:4px}
 .dot.best{background:var(--best)}.dot.other{background:var(--other)}.dot.ring{border:1.5px solid var(--ink)}
 .scroll{overflow-x:auto}
 table{border-collapse:collapse;width:100%;font-size:13.5px;font-variant-numeric:tabular-nums}
@@ -53,6 +56,11 @@ ul{margin:0;padding-left:20px}li{margin:3px 0}
 .scale{display:flex;gap:8px;align-items:center;max-width:320px;color:var(--quiet);font-size:12px;margin:4px 0 14px}
 .scale i{flex:1;height:9px;border-radius:5px}
 .maps{display:grid;grid-template-columns:repeat(auto-fill,minmax(200px,1fr));gap:18px}
+.study svg{max-width:860px;margin:0 auto 12px}
+.maps.small{grid-template-columns:repeat(auto-fill,minmax(120px,1fr));margin-bottom:14px}
+summary{cursor:pointer;color:var(--best);font-weight:600;font-size:14px}
+tr.group td{border-top:1px solid var(--other)}
+td[rowspan]{vertical-align:top}
 .maps img{width:100%;border-radius:6px;display:block}
 code{font:13px ui-monospace,'DejaVu Sans Mono',monospace;background:#f0f2f5;border-radius:4px;padding:1px 5px}
 @media(max-width:760px){header,.pair{grid-template-columns:1fr}}

@@ -2,21 +2,26 @@
 
 use std::fmt::Write;
 
+use serde_json::Value as Json;
+
 use super::text::{escaped, milliseconds, number, percent};
 use crate::budget::GRADIENT;
-use crate::{Budget, Measured, Measurements};
+use crate::{Budget, Figures, Measured, Measurements};
+
+/// The settings by rising error.
+pub(super) fn by_error(measurements: &Measurements) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..measurements.settings.len()).collect();
+    let rmse = |i: usize| measurements.settings[i].all.errors.rmse;
+    order.sort_by(|&a, &b| rmse(a).total_cmp(&rmse(b)).then(a.cmp(&b)));
+    order
+}
 
 /// Every setting, by rising error.
 pub(super) fn settings(measurements: &Measurements) -> String {
-    let mut order: Vec<usize> = (0..measurements.settings.len()).collect();
-    order.sort_by(|&a, &b| {
-        let rmse = |i: usize| measurements.settings[i].errors.rmse;
-        rmse(a).total_cmp(&rmse(b)).then(a.cmp(&b))
-    });
-    let rows: String = order.iter().map(|&i| row(measurements, i)).collect();
+    let rows: String = by_error(measurements).into_iter().map(|i| row(measurements, i)).collect();
     format!(
         "<section><h2>All settings, the most accurate first</h2><div class=\"scroll\"><table><thead><tr><th>Setting</th>\
-         <th>Time<br>median</th><th>5 to 95 %</th><th>Samples</th><th>of them<br>contributing</th><th>Error<br>RMS</th>\
+         <th>Time<br>median</th><th>5 to 95 %<br>ms</th><th>Samples</th><th>of them<br>contributing</th><th>Error<br>RMS</th>\
          <th>mean</th><th>99 %<br>of pixels</th><th>largest</th><th>Visibly<br>off</th><th>ln T<br>largest</th></tr></thead>\
          <tbody>{rows}</tbody></table></div><p class=\"quiet\">Errors of premultiplied colours and opacities from 0 to 1, over all \
          views; of each pixel the largest of its four channels. Visibly off: by more than 1/510, half a code of an 8-bit picture. \
@@ -26,16 +31,18 @@ pub(super) fn settings(measurements: &Measurements) -> String {
 }
 
 fn row(measurements: &Measurements, index: usize) -> String {
-    let Measured { setting, time_ms, counts, errors, notes, departs, .. } = &measurements.settings[index];
+    let Measured { setting, all, notes, departs, .. } = &measurements.settings[index];
+    let Figures { time_ms, counts, errors, .. } = all;
     let class = if measurements.front_time.contains(&index) { " class=\"front\"" } else { "" };
     let departs = if *departs { " <small>\u{2260}</small>" } else { "" };
     let (time, spread) = match time_ms {
         Some(time) => (milliseconds(time.median), format!("{} \u{2013} {}", number(time.low), number(time.high))),
         None => ("\u{2013}".into(), "\u{2013}".into()),
     };
+    let chosen = if measurements.chosen == Some(index) { " <span class=\"choice\">choose</span>" } else { "" };
     let contributing = counts.contributing as f64 / counts.samples.max(1) as f64;
     format!(
-        "<tr{class} title=\"{}\"><td>{}{departs}</td><td>{time}</td><td><small>{spread}</small></td><td>{}</td><td>{}</td><td>{}</td>\
+        "<tr{class} title=\"{}\"><td>{}{departs}{chosen}</td><td>{time}</td><td><small>{spread}</small></td><td>{}</td><td>{}</td><td>{}</td>\
          <td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
         escaped(&notes.join(" ")),
         escaped(&setting.name),
@@ -56,12 +63,12 @@ pub(super) fn dominated(measurements: &Measurements) -> String {
         return String::new();
     }
     let numbers = |one: &Measured| {
-        let time = one.time_ms.map_or_else(|| "\u{2013}".into(), |time| milliseconds(time.median));
-        format!("<td>{time}</td><td>{}</td>", number(one.errors.rmse))
+        let time = one.all.time_ms.map_or_else(|| "\u{2013}".into(), |time| milliseconds(time.median));
+        format!("<td>{time}</td><td>{}</td>", number(one.all.errors.rmse))
     };
     let line = |(&worse, &better): (&usize, &usize)| {
         let (worse, better) = (&measurements.settings[worse], &measurements.settings[better]);
-        let clear = match (worse.time_ms, better.time_ms) {
+        let clear = match (worse.all.time_ms, better.all.time_ms) {
             (Some(worse), Some(better)) if better.high < worse.low => "",
             _ => "times overlap",
         };
@@ -109,53 +116,63 @@ pub(super) fn budget(budget: &Budget, measurements: &Measurements) -> String {
         let _ = match row.change {
             Some(change) => write!(
                 rows,
-                "<tr><td>{}</td><td class=\"text\"><small>{}</small></td><td class=\"text\"><span class=\"bar{}\" \
-                 style=\"width:{:.0}px\"></span></td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
+                "<tr><td>{}</td><td class=\"text\"><small>{}</small></td><td class=\"text\">{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
                 row.cause,
                 escaped(&row.switch),
-                if row.cause == GRADIENT { " aside" } else { "" },
-                120.0 * change.rmse / largest.max(f64::MIN_POSITIVE),
+                bar(change.rmse / largest.max(f64::MIN_POSITIVE), row.cause == GRADIENT),
                 number(change.rmse),
                 number(change.p99),
                 number(change.max),
-                percent(change.visible)
+                percent(change.visible),
+                row.left.map_or_else(|| "\u{2013}".into(), |left| number(left.rmse))
             ),
             None => write!(
                 rows,
-                "<tr><td>{}</td><td class=\"text\" colspan=\"6\"><small>{}</small></td></tr>",
+                "<tr><td>{}</td><td class=\"text\" colspan=\"7\"><small>{}</small></td></tr>",
                 row.cause,
                 escaped(&row.switch)
             ),
         };
     }
     if let Some(saved) = measurements.saved() {
-        let errors = measurements.settings[saved].errors;
+        let errors = measurements.settings[saved].all.errors;
         let _ = write!(
             rows,
             "<tr class=\"front\"><td>all together</td><td class=\"text\"><small>as saved, against the reference</small></td><td></td>\
-             <td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
+             <td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
             number(errors.rmse),
             number(errors.p99),
             number(errors.max),
-            percent(errors.visible)
+            percent(errors.visible),
+            number(errors.rmse)
         );
     }
     let not: String = budget.not_separated.iter().map(|cause| format!("<li>{}</li>", escaped(cause))).collect();
     format!(
         "<section><h2>What the error is made of</h2><div class=\"scroll\"><table><thead><tr><th>Cause</th><th \
          class=\"text\">switched off by</th><th class=\"text\">change of the picture</th><th>RMS</th><th>99 %<br>of \
-         pixels</th><th>largest</th><th>Visibly<br>off</th></tr></thead><tbody>{rows}</tbody></table></div><p class=\"quiet\">One \
-         cause is switched off at a time in the network as saved; the numbers say how far that moves the picture. Causes may cancel \
-         or overlap, so they do not add up to the whole. Gradients differ in what they estimate: theirs is a departure from \
+         pixels</th><th>largest</th><th>Visibly<br>off</th><th>RMS left<br>without it</th></tr></thead><tbody>{rows}</tbody></table></div><p class=\"quiet\">One \
+         cause is switched off at a time in the network as saved; the numbers say how far that moves the picture, the last column how far \
+         it is from the reference then. Causes may cancel, overlap or take the place of another, as the noise of jitter does of \
+         rings, so they do not add up to the whole. Gradients differ in what they estimate: theirs is a departure from \
          fourth-order differences, not an error against the reference. Not separated:</p><ul class=\"quiet\">{not}</ul></section>"
     )
+}
+
+/// A bar as long as a share of the longest; nothing for nothing.
+fn bar(share: f64, aside: bool) -> String {
+    const LONGEST: f64 = 120.0;
+    let class = if aside { "bar aside" } else { "bar" };
+    match share > 0.0 {
+        true => format!("<span class=\"{class}\" style=\"width:{:.0}px\"></span>", LONGEST * share),
+        false => String::new(),
+    }
 }
 
 /// How it was measured, to do it again.
 pub(super) fn conditions(measurements: &Measurements) -> String {
     let [width, height] = measurements.size;
-    let cameras: String =
-        measurements.views.iter().map(|view| format!("<li><code>{}</code></li>", escaped(&view.to_string()))).collect();
+    let cameras: String = measurements.views.iter().map(|view| format!("<li>{}</li>", escaped(&short(view)))).collect();
     format!(
         "<section><h2>How it was measured</h2><p>{} of <code>{}</code>, {width} \u{d7} {height} pixels, {} view{}, {} timing{} of \
          each setting and view taken in turns, on {}; rayloom {}. Time is that of entry points and rays on the device, without \
@@ -170,6 +187,21 @@ pub(super) fn conditions(measurements: &Measurements) -> String {
         escaped(&measurements.adapter),
         escaped(&measurements.rayloom)
     )
+}
+
+/// The fields of a camera with three digits behind the point.
+fn short(camera: &Json) -> String {
+    let number = |number: &Json| number.as_f64().map(|x| format!("{}", (1e3 * x).round() / 1e3)).unwrap_or_default();
+    let value = |value: &Json| match value.as_array() {
+        Some(numbers) => numbers.iter().map(number).collect::<Vec<_>>().join(", "),
+        None => number(value),
+    };
+    let fields = camera
+        .as_object()
+        .into_iter()
+        .flatten()
+        .map(|(name, field)| format!("{} {}", name.replace('_', " "), value(field)));
+    fields.collect::<Vec<_>>().join("; ")
 }
 
 fn plural(count: usize) -> &'static str {

@@ -31,6 +31,11 @@ pub(crate) fn milliseconds(ms: f64) -> String {
     format!("{ms:.digits$} ms")
 }
 
+/// "43.2 dB", and a word for no difference.
+pub(crate) fn decibels(db: f64) -> String {
+    if db == f64::INFINITY { "equal".into() } else { format!("{db:.1} dB") }
+}
+
 /// "1.2 %", and never "0 %" or "100 %" for what is not quite that.
 pub(crate) fn percent(share: f64) -> String {
     match 100.0 * share {

@@ -39,7 +39,7 @@ fn section(study: &Study, axis: Axis) -> String {
     };
     let rows: String = study.cases.iter().filter(|case| case.axis == axis).map(row).collect();
     format!(
-        "<section><h2>{title}</h2><p class=\"quiet\">{text} Hollow: what arithmetic leaves, not judged.</p>{}<div \
+        "<section class=\"study\"><h2>{title}</h2><p class=\"quiet\">{text} Hollow: what arithmetic leaves, not judged.</p>{}<div \
          class=\"scroll\"><table><thead><tr><th>Method</th><th>Expected</th><th>Passes</th><th>Observed</th><th \
          class=\"text\"></th></tr></thead><tbody>{rows}</tbody></table></div></section>",
         plot::svg(study, axis)

@@ -48,9 +48,14 @@ fn combinations_are_measured_and_written() {
     assert_eq!(found.refused.len(), 2);
     assert!(found.refused[0].reason.contains("no_such"), "{}", found.refused[0].reason);
     let [saved, coarse, fine] = &found.settings[..] else { panic!("three settings") };
-    assert!(fine.errors.rmse < saved.errors.rmse && saved.errors.rmse < coarse.errors.rmse);
-    assert!(fine.counts.samples > 3 * saved.counts.samples && saved.counts.rays == fine.counts.rays);
-    assert!(!found.settings.iter().any(|one| one.departs));
+    assert!(fine.all.errors.rmse < saved.all.errors.rmse && saved.all.errors.rmse < coarse.all.errors.rmse);
+    assert!(fine.all.counts.samples > 3 * saved.all.counts.samples && saved.all.counts.rays == fine.all.counts.rays);
+    let (seen, better) = (coarse.all.displayed, fine.all.displayed);
+    assert!(better.psnr > seen.psnr + 10.0 && better.ssim > seen.ssim, "{seen:?} {better:?}");
+    assert!(better.ciede2000 < seen.ciede2000 && better.flip < seen.flip && seen.flip < 1.0, "{seen:?} {better:?}");
+    let of_views: u64 = fine.views.iter().map(|view| view.counts.samples).sum();
+    assert_eq!((fine.views.len(), of_views), (2, fine.all.counts.samples));
+    assert!(!found.settings.iter().any(|one| one.departs || one.all.surface.is_some()));
     assert_eq!((found.reference, found.views.len(), found.front_samples.len()), ("exact", 2, 3));
     let budget = found.budget.as_ref().expect("a budget");
     let change = |cause| budget.rows.iter().find(|row| row.cause == cause).and_then(|row| row.change);
@@ -62,18 +67,32 @@ fn combinations_are_measured_and_written() {
     let output = folder.path().join("new/folder");
     let files = write_all(&output, &found).expect("files");
     let text = |name: &str| fs::read_to_string(output.join(name)).expect("a file");
-    assert_eq!(files.len(), 3);
+    assert_eq!(files.len(), 4);
     let csv = text("measurements.csv");
     let lines: Vec<&str> = csv.lines().collect();
     assert!(lines[0].starts_with("setting,traversal.compositing,traversal.sampling_rate,time_ms,"), "{}", lines[0]);
     assert_eq!(fields(lines[0]), fields(lines[1]));
     assert!(lines[2].starts_with("\"sampling_rate 0.5, compositing dvr\",dvr,0.5,"), "{}", lines[2]);
+    assert!(!csv.contains("distance_") && csv.contains(",flip_mean,on_front_time,"), "{}", lines[0]);
+    let views = text("views.csv");
+    let views: Vec<&str> = views.lines().collect();
+    assert_eq!((views.len(), fields(views[0]), fields(views[1])), (1 + 3 * 2, fields(lines[0]) - 5, fields(views[0])));
+    assert!(views[2].starts_with("as saved,,,2,"), "{}", views[2]);
     let json: Json = serde_json::from_str(&text("measurements.json")).expect("JSON");
     assert_eq!(json["settings"][2]["setting"]["set"]["traversal.sampling_rate"], json!(4));
     assert!(json["settings"][0]["errors"]["rmse"].as_f64().is_some_and(|rmse| rmse > 0.0));
     let page = text("report.html");
-    for part in ["Shells", "<svg", "data:image/png;base64,", "What the error is made of", "no_such", "Choose \u{201c}"]
-    {
+    assert!(!page.contains("Where rays meet the surface"));
+    for part in [
+        "Shells",
+        "<svg",
+        "As a display shows it",
+        "<details>",
+        "data:image/png;base64,",
+        "What the error is made of",
+        "no_such",
+        "Choose \u{201c}",
+    ] {
         assert!(page.contains(part), "{part}");
     }
     assert!(!page.contains("http"), "the page asks for something from elsewhere");
@@ -101,9 +120,80 @@ fn networks_that_the_reference_cannot_draw_are_compared_with_the_finest() {
         "{}",
         found.reference_note
     );
-    assert!(found.settings[2].errors.rmse < found.settings[1].errors.rmse);
+    assert!(found.settings[2].all.errors.rmse < found.settings[1].all.errors.rmse);
     let exact = Plan { standard: Some(Standard::Exact), ..plan(&["traversal.sampling_rate=2"], &[]) };
     assert!(matches!(measured(&mida, &exact), Err(MeasureError::Refusal(_))));
+}
+
+#[test]
+fn jitter_and_rays_a_pixel_are_knobs() {
+    let jittered = network(&[("traversal.jitter", json!(true))]);
+    let plan = Plan { budget: true, ..plan(&[], &["jitter", "pixel_rate"]) };
+    let found = measured(&jittered, &plan).expect("measurements");
+    let named = |name: &str| found.settings.iter().find(|one| one.setting.name == name).expect(name);
+    assert_eq!(found.settings.len(), 1 + 1 + 3);
+    let samples = |name: &str| named(name).all.counts.samples as f64 / named("as saved").all.counts.samples as f64;
+    assert!((samples("pixel rate 2") - 4.0).abs() < 0.5 && (samples("pixel rate 0.5") - 0.25).abs() < 0.05);
+    assert_eq!(["pixel rate 0.5", "pixel rate 2"].map(|name| named(name).departs), [false, true]);
+    let flip = |name: &str| named(name).all.displayed.flip;
+    assert!(flip("pixel rate 0.25") > flip("pixel rate 0.5") && flip("pixel rate 0.5") > flip("as saved"));
+    let budget = found.budget.as_ref().expect("a budget");
+    let row = budget.rows.iter().find(|row| row.cause == "jitter").expect("a row");
+    assert_eq!(row.switch, "jitter true \u{2192} false");
+    assert!(row.change.is_some_and(|change| change.rmse > 0.0));
+    // Switched off it is the very setting of the ladder.
+    assert_eq!(row.left.as_ref(), Some(&named("jitter false").all.errors));
+}
+
+/// A round isosurface that the exact reference knows, lit or not.
+fn isosurface(shading: &str) -> Network {
+    network(&[
+        ("source.field", json!("gaussian_blob")),
+        ("traversal.compositing", json!("isosurface")),
+        ("traversal.compositing.isovalue", json!(0.02)),
+        ("traversal.shading", json!(shading)),
+    ])
+}
+
+#[test]
+fn surfaces_are_compared_where_rays_meet_them() {
+    let vary = ["traversal.refinement=none,secant", "traversal.gradient=central,sobel"];
+    let found = measured(&isosurface("diffuse"), &plan(&vary, &[])).expect("measurements");
+    assert_eq!(found.reference, "exact");
+    let surface = |index: usize| found.settings[index].all.surface.expect("a surface");
+    let [coarse, fine, other] = [1, 3, 4].map(surface);
+    let normal = |of: rayloom_measure::SurfaceErrors| of.normal.expect("normals").rmse;
+    assert!(fine.common > 100 && fine.distance.p99 < 0.02, "{fine:?}");
+    assert!(coarse.distance.rmse > 0.1 && coarse.distance.max < 1.5, "{coarse:?}");
+    assert!(normal(fine) < 0.5 && normal(coarse) > 10.0 * normal(fine), "{coarse:?} {fine:?}");
+    // Another estimate of the gradient moves the normals and nothing else.
+    assert!(normal(other) > 10.0 * normal(fine) && other.distance == fine.distance, "{other:?} {fine:?}");
+    assert!(fine.silhouette() < fine.common / 20, "{fine:?}");
+
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    write_all(folder.path(), &found).expect("files");
+    let text = |name: &str| fs::read_to_string(folder.path().join(name)).expect("a file");
+    assert!(
+        text("measurements.csv").contains(",distance_rmse_voxels,")
+            && text("views.csv").contains(",normal_p99_degrees,")
+    );
+    assert!(text("report.html").contains("Where rays meet the surface"));
+
+    // Where nothing is lit there are no normals to be wrong.
+    let unlit = measured(&isosurface("none"), &plan(&["traversal.refinement=none"], &[])).expect("measurements");
+    let of = |index: usize| unlit.settings[index].all.surface.expect("a surface");
+    assert!(of(0).normal.is_none() && of(0).distance.rmse < 0.02 * of(1).distance.rmse, "{:?}", of(0));
+}
+
+#[test]
+fn first_hits_are_compared_with_the_finest() {
+    let normals = network(&[("traversal.compositing", json!("first_hit_normal"))]);
+    let found = measured(&normals, &plan(&["traversal.sampling_rate=0.5,8"], &[])).expect("measurements");
+    assert_eq!(found.reference, "finest");
+    let [coarse, fine] = [1, 2].map(|index| found.settings[index].all.surface.expect("a surface"));
+    let normal = |of: rayloom_measure::SurfaceErrors| of.normal.expect("normals").rmse;
+    assert!(coarse.distance.rmse > 4.0 * fine.distance.rmse && fine.distance.rmse > 0.0, "{coarse:?} {fine:?}");
+    assert!(normal(coarse) > normal(fine) && coarse.missing > 0, "{coarse:?} {fine:?}");
 }
 
 #[test]

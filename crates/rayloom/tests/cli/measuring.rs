@@ -60,6 +60,8 @@ fn a_measurement_says_what_to_choose_and_where_the_files_are() {
     assert!(text.contains("refused: sampling_rate 0.5, target 9-bit: ") && text.contains("report.html"), "{text}");
     let table = fs::read_to_string(within("measured/measurements.csv")).expect("a table");
     assert_eq!(table.lines().count(), 1 + 3 + 2, "{table}");
+    let views = fs::read_to_string(within("measured/views.csv")).expect("a table");
+    assert_eq!(views.lines().count(), 1 + 3 * 2, "{views}");
     let unknown = rayloom(["measure", &network, "--ladder", "speed", "-o", &output]).error();
     assert!(unknown.contains("There is no ladder `speed`"), "{unknown}");
     let usage = rayloom(["measure", &network, "--reference", "perfect", "-o", &output]);

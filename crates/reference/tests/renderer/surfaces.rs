@@ -5,7 +5,7 @@ use glam::{DMat3, DVec3};
 use rayloom_reference::closed_forms::{plane_hit, sphere_hit, sphere_normal};
 use rayloom_reference::same_samples::{Renderer, render};
 use rayloom_reference::shading::{BlinnPhong, LightSpace};
-use rayloom_reference::{Camera, MISS, Method, Refinement, Scene};
+use rayloom_reference::{Camera, MISS, Method, Refinement, Scene, surface_points};
 use rayloom_volume::Volume;
 
 const REFINEMENTS: [Refinement; 4] =
@@ -40,6 +40,10 @@ fn planes_are_hit_exactly() {
             assert!(hit.world.abs_diff_eq(ray.at(hit.depth), 1e-12));
             assert!(hit.normal.abs_diff_eq(-normal, 1e-12), "{}", hit.normal);
             assert_eq!(renderer.pixel(x, y).depth, hit.depth);
+            let points = surface_points(&scene, &render(&scene).expect("a picture")).expect("points");
+            let point = points[(y * 8 + x) as usize].expect("the plane fills the view");
+            assert_eq!(point.distance, hit.depth);
+            assert!(point.normal.abs_diff_eq(-normal, 1e-12), "{}", point.normal);
         }
     }
 }
