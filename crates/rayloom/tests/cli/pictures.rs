@@ -134,7 +134,7 @@ fn the_studio_writes_the_very_picture_at_any_size() {
     let gpu = rayloom_gpu::Gpu::new(&rayloom_gpu::GpuOptions::default()).expect("a device");
     let mut engine = rayloom_studio::Engine::start(gpu, || {}).expect("an engine");
     // What the window shows meanwhile has another size and does not matter.
-    engine.order(1, &loaded, rayloom_network::Request { size: Some([64, 64]), ..Default::default() });
+    engine.order(1, &loaded, rayloom_network::Request { size: Some([64, 64]), ..Default::default() }, false);
     let picture = engine.photographer().picture(loaded.clone(), "canvas", [97, 61]).expect("a picture");
     rayloom_processors::write_picture(Path::new(&other), &picture).expect("a file");
     assert_eq!(fs::read(file).expect("a file"), fs::read(other).expect("a file"));
