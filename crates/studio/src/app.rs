@@ -146,7 +146,7 @@ impl Studio {
             Some(welcome::Choice::New) if session.network().processors().next().is_none() => self.welcome.close(),
             Some(welcome::Choice::New) => files.new_network(session, &context),
             Some(welcome::Choice::Choose) => files.choose(session, &context),
-            Some(welcome::Choice::Open(path)) => files.open(&path, session, &context),
+            Some(welcome::Choice::Open(path, mode)) => files.open(&path, mode, session, &context),
             None => {}
         }
     }

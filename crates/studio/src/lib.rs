@@ -40,7 +40,7 @@ pub use engine::{Engine, Photographer, Results};
 pub use files::{Abandoned, Folders, Recovery};
 pub use inspect::{ChannelStatistics, Inspection, Judgement, Pixel, Reading, Statistics, hover, statistics};
 pub use panels::{Navigation, Pane};
-pub use probe::{Probe, Ray};
+pub use probe::{Mark, Probe, Ray};
 pub use quality::Quality;
 pub use session::{Message, Mode, Session, Severity};
 pub use visualization::{Application, Change, Exposed, Group, Layout};

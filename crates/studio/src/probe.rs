@@ -29,6 +29,15 @@ impl Ray {
     }
 }
 
+/// A sample that panels point at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mark {
+    /// Its value, in the unit of the volume.
+    pub value: f64,
+    /// The magnitude of its gradient, value a world unit, if that is known.
+    pub gradient: Option<f64>,
+}
+
 /// What panels tell each other about the probed ray.
 #[derive(Default)]
 pub struct Probe {
@@ -36,9 +45,9 @@ pub struct Probe {
     pub ray: Option<Ray>,
     /// Where it was picked: a canvas, or the outport of an inspector.
     pub picked_in: String,
-    /// The value under the cursor of the plots, in the unit of the volume: set by them, for the next frame.
-    marker: Option<f64>,
-    shown_marker: Option<f64>,
+    /// The sample under the cursor of the plots: set by them, for the next frame.
+    marker: Option<Mark>,
+    shown_marker: Option<Mark>,
 }
 
 impl Probe {
@@ -47,13 +56,13 @@ impl Probe {
         self.shown_marker = self.marker.take();
     }
 
-    /// Marks a value in editors of the transfer function, in the next frame.
-    pub fn mark(&mut self, value: f64) {
-        self.marker = Some(value);
+    /// Marks a sample in editors of the transfer function, in the next frame.
+    pub fn mark(&mut self, sample: Mark) {
+        self.marker = Some(sample);
     }
 
-    /// The value to mark in the editors of a processor.
-    pub fn marker(&self, processor: &str) -> Option<f64> {
+    /// The sample to mark in the editors of a processor.
+    pub fn marker(&self, processor: &str) -> Option<Mark> {
         self.shown_marker.filter(|_| self.ray.as_ref().is_some_and(|ray| ray.processor == processor))
     }
 

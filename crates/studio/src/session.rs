@@ -87,10 +87,15 @@ pub struct Session {
     pub watched: BTreeSet<Address>,
     /// Set by a panel in a frame in which the user moves something that pictures follow: they get smaller for the while.
     pub interacting: bool,
+    /// Set by a panel in a frame in which what the user set in motion goes on by itself: it belongs to the same step of the
+    /// history.
+    pub coasting: bool,
     /// How much smaller.
     pub quality: Quality,
     /// The canvases shown in this frame, with their sizes in pixels. Filled anew every frame.
     pub shown: BTreeMap<String, [u32; 2]>,
+    /// Whether anything was coasting in the frame before.
+    coasted: bool,
 }
 
 impl Session {
@@ -114,8 +119,10 @@ impl Session {
             mode: Mode::default(),
             watched: BTreeSet::new(),
             interacting: false,
+            coasting: false,
             quality: Quality::default(),
             shown: BTreeMap::new(),
+            coasted: false,
         }
     }
 
@@ -173,6 +180,7 @@ impl Session {
             self.quality.learn(&self.engine.results.request, &self.engine.results.report, &self.shown);
         }
         self.interacting = false;
+        self.coasted = std::mem::take(&mut self.coasting);
         self.watched.clear();
         self.shown.clear();
         self.engine.ray = None;
@@ -185,7 +193,7 @@ impl Session {
         if let Some(rest) = self.quality.notice(self.interacting, released, &self.shown, Instant::now()) {
             context.request_repaint_after(rest);
         }
-        if released {
+        if (released || self.coasted) && !self.coasting {
             self.document.settle();
         }
         let request = self.request();

@@ -242,6 +242,15 @@ fn a_turning_camera_goes_on_only_with_inertia() {
     let resting = camera(&window);
     window.run_steps(10);
     assert_eq!(camera(&window), resting, "it comes to rest");
+
+    // A drag and what it set in motion are one step.
+    assert!(window.state_mut().session.document.undo());
+    let before = camera(&window);
+    window.run_steps(10);
+    assert_eq!(camera(&window), before, "it goes on after undoing");
+    assert!(window.state_mut().session.document.undo());
+    assert_ne!(camera(&window), before);
+    assert!(!window.state_mut().session.document.undo());
 }
 
 #[test]

@@ -7,7 +7,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use rayloom_network::{EditError, Network};
 use rayloom_processors::Trace;
-use rayloom_studio::{Pane, Studio};
+use rayloom_studio::{Mark, Pane, Studio};
 use serde_json::json;
 
 fn trace(studio: &Studio) -> Option<&Trace> {
@@ -45,7 +45,10 @@ fn a_clicked_pixel_shows_its_ray_live() {
     window::wait_for(&mut harness, "classified");
     harness.step();
     let marker = harness.state().session.probe.marker("traversal").expect("a marked value");
-    assert!(trace(harness.state()).expect("a ray").samples.iter().any(|sample| sample.value == marker));
+    assert!(trace(harness.state()).expect("a ray").samples.iter().any(|sample| {
+        let mark = Mark { value: sample.value, gradient: sample.gradient };
+        mark == marker && mark.gradient.is_some()
+    }));
     window::keep_picture(&mut harness, "ray-probe");
 
     // Edits show at once.

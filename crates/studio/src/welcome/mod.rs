@@ -12,7 +12,7 @@ use egui::{
 };
 
 use crate::files::Recent;
-use crate::session::Session;
+use crate::session::{Mode, Session};
 use gallery::{Entry, Gallery};
 
 pub use shipped::folder as shipped_folder;
@@ -30,8 +30,8 @@ pub enum Choice {
     New,
     /// A network that is asked for.
     Choose,
-    /// This network.
-    Open(PathBuf),
+    /// This network, in this mode.
+    Open(PathBuf, Mode),
 }
 
 /// The welcome page.
@@ -138,7 +138,7 @@ fn beginnings(ui: &mut Ui, recent: &[Recent], choice: &mut Option<Choice>) {
         let path = file.path.display().to_string();
         let gone = format!("{path}\nThe file is no longer there.");
         if response.on_hover_text(&path).on_disabled_hover_text(gone).clicked() {
-            *choice = Some(Choice::Open(file.path.clone()));
+            *choice = Some(Choice::Open(file.path.clone(), Mode::Development));
         }
     }
 }
@@ -166,7 +166,8 @@ fn cards(ui: &mut Ui, entries: &[Entry], choice: &mut Option<Choice>) {
                 ui.spacing_mut().item_spacing.x = GAP;
                 for entry in row {
                     if show_card(ui, entry, card) {
-                        *choice = Some(Choice::Open(entry.network.path.clone()));
+                        let mode = if applications { Mode::Visualization } else { Mode::Development };
+                        *choice = Some(Choice::Open(entry.network.path.clone(), mode));
                     }
                 }
             });

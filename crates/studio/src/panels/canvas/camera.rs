@@ -84,6 +84,8 @@ pub(super) struct Held {
     walker: Option<Walker>,
     /// Radians a second to the right and up that the camera turns by itself.
     spin: [f64; 2],
+    /// Where the camera was left; one that is elsewhere was moved by something else, which ends the turning.
+    left: Option<Camera>,
 }
 
 impl Held {
@@ -105,7 +107,7 @@ impl Held {
             Some(walker) => stroll(ui, response, shown, walker, size, &mut camera),
             None => {
                 drag(ui, response, shown, &mut camera);
-                self.spin(ui, response, shown, session.navigation, &mut camera);
+                session.coasting |= self.spin(ui, response, shown, session.navigation, &mut camera);
             }
         }
         zoom(ui, response, shown, &mut camera);
@@ -125,6 +127,7 @@ impl Held {
         if let Some(centred) = self.centred(ui, session, canvas) {
             camera = centred;
         }
+        self.left = Some(camera);
         if camera != before && camera.validate().is_ok() {
             session.interacting = true;
             session.set(processor, property, Value::Camera(camera));
@@ -179,22 +182,33 @@ impl Held {
         }
     }
 
-    /// With inertia a camera that was let go while it turned goes on turning, ever slower.
-    fn spin(&mut self, ui: &egui::Ui, response: &egui::Response, shown: Rect, wishes: Navigation, camera: &mut Camera) {
+    /// With inertia a camera that was let go while it turned goes on turning, ever slower, until something is pressed or moves
+    /// it. Whether it does.
+    fn spin(
+        &mut self,
+        ui: &egui::Ui,
+        response: &egui::Response,
+        shown: Rect,
+        wishes: Navigation,
+        camera: &mut Camera,
+    ) -> bool {
         if !wishes.inertia || response.is_pointer_button_down_on() {
             let turning = wishes.inertia && response.dragged_by(PointerButton::Primary);
             let velocity = ui.input(|input| input.pointer.velocity()) / shown.height().max(1.0);
             let spin = [f64::from(-velocity.x) * TURN, f64::from(velocity.y) * TURN];
             self.spin = if turning && ui.input(|input| !input.modifiers.shift) { spin } else { [0.0; 2] };
-            return;
+            return false;
         }
-        if self.spin[0].hypot(self.spin[1]) < SLOWEST {
-            return;
+        let disturbed = self.left != Some(*camera) || ui.input(|input| input.pointer.any_pressed());
+        if disturbed || self.spin[0].hypot(self.spin[1]) < SLOWEST {
+            self.spin = [0.0; 2];
+            return false;
         }
         let time = ui.input(|input| f64::from(input.stable_dt).min(LONGEST_FRAME));
         camera.orbit(self.spin[0] * time, self.spin[1] * time);
         self.spin = self.spin.map(|speed| speed * KEPT.powf(time));
         ui.ctx().request_repaint();
+        true
     }
 
     /// What the user is to know about the keys just now.

@@ -5,6 +5,7 @@ use egui_graph::{LayoutNode, LayoutParams, layout};
 use rayloom_network::EditError;
 
 use super::NetworkPanel;
+use super::frames;
 use super::scene::node_id;
 use crate::session::Session;
 use crate::wiring::End;
@@ -68,7 +69,7 @@ impl NetworkPanel {
             context.request_discard("sizes of new nodes");
             return;
         }
-        let mut bounds: Option<Rect> = None;
+        let mut bounds = session.network().frames().iter().map(frames::rect).reduce(|all, frame| all.union(frame));
         for processor in session.network().processors() {
             let (Some(at), Some(rect)) =
                 (self.view.layout.get(&node_id(processor.id())), self.geometry.nodes.get(processor.id()))

@@ -44,7 +44,8 @@ pub struct Dragged {
     moved: Vec2,
 }
 
-fn rect(frame: &Frame) -> Rect {
+/// Where a frame lies on the canvas.
+pub fn rect(frame: &Frame) -> Rect {
     let [x, y, width, height] = frame.rect.map(|x| x as f32);
     Rect::from_min_size(Pos2::new(x, y), Vec2::new(width, height))
 }

@@ -14,6 +14,7 @@ use super::histograms::Histograms;
 use super::number::{Entered, Number};
 use super::{camera, choice, file, labels, light, shader_text, text, transfer_function, transfer_function_2d, vector};
 use crate::dialogs::{Chooser, Dialogs};
+use crate::probe::Mark;
 use crate::theme;
 
 /// Ends beyond this are no help to a slider.
@@ -57,8 +58,8 @@ pub(super) struct Surroundings<'a> {
     pub properties: &'a Properties,
     /// The volume that flows into the processor.
     pub volume: Option<Arc<Volume>>,
-    /// The value that the ray probe points at.
-    pub marker: Option<f64>,
+    /// The sample that the ray probe points at.
+    pub marker: Option<Mark>,
     /// Why the processor failed.
     pub failure: Option<&'a ProcessError>,
     /// The folder of the network file.

@@ -28,7 +28,7 @@ pub(super) fn section(ui: &mut Ui, title: &str, body: impl FnOnce(&mut Ui)) {
 
 /// A property with what belongs to it.
 pub(super) fn show_entry(ui: &mut Ui, entry: &Entry, surroundings: &mut Surroundings<'_>) {
-    show(ui, &entry.decl, entry.text.as_ref(), surroundings);
+    show(ui, &entry.decl, entry.text.as_ref(), 0.0, surroundings);
     if entry.parameters.is_empty() {
         return;
     }
@@ -40,7 +40,7 @@ pub(super) fn show_entry(ui: &mut Ui, entry: &Entry, surroundings: &mut Surround
         ui.vertical(|ui| {
             ui.spacing_mut().item_spacing.x = 6.0;
             for decl in &entry.parameters {
-                show(ui, decl, None, surroundings);
+                show(ui, decl, None, INDENT, surroundings);
             }
         });
     });
@@ -48,8 +48,14 @@ pub(super) fn show_entry(ui: &mut Ui, entry: &Entry, surroundings: &mut Surround
     ui.painter().vline(left, top..=bottom, ui.visuals().widgets.noninteractive.bg_stroke);
 }
 
-/// A property; `text` is the one that holds an edited text for the same slot.
-fn show(ui: &mut Ui, decl: &PropertyDecl, text: Option<&PropertyDecl>, surroundings: &mut Surroundings<'_>) {
+/// A property, moved in by `indent`; `text` is the one that holds an edited text for the same slot.
+fn show(
+    ui: &mut Ui,
+    decl: &PropertyDecl,
+    text: Option<&PropertyDecl>,
+    indent: f32,
+    surroundings: &mut Surroundings<'_>,
+) {
     let Some(value) = surroundings.properties.get(&decl.id).cloned() else { return };
     let address = Address::new(surroundings.processor, &decl.id);
     let changed = value != decl.default;
@@ -58,8 +64,7 @@ fn show(ui: &mut Ui, decl: &PropertyDecl, text: Option<&PropertyDecl>, surroundi
         ui.horizontal(|ui| {
             ui.set_min_height(HEIGHT);
             let width = ui.available_width();
-            let indent = INDENT * f32::from(u8::from(decl.id.contains('.')));
-            let name_width = (NAMES * width).clamp(70.0, 180.0) - indent;
+            let name_width = (NAMES * (width + indent)).clamp(70.0, 180.0) - indent;
             name(ui, decl, &address, if wide { width - MARK - 6.0 } else { name_width }, surroundings);
             if !wide {
                 let toggle = if text.is_some() { TOGGLE + 6.0 } else { 0.0 };

@@ -7,7 +7,7 @@ use egui::{ComboBox, RichText, Ui};
 use rayloom_processors::Trace;
 
 use crate::inspect::text::number;
-use crate::probe;
+use crate::probe::{self, Mark};
 use crate::session::Session;
 use crate::theme;
 
@@ -88,7 +88,7 @@ impl RayProbePanel {
         let sample = hovered.or(chosen);
         self.cursor = sample.map(|sample| trace.samples[sample].index);
         if let Some(sample) = sample.map(|sample| &trace.samples[sample]) {
-            session.probe.mark(sample.value);
+            session.probe.mark(Mark { value: sample.value, gradient: sample.gradient });
             reading::show(ui, trace, sample);
         } else {
             ui.weak("Point into the plots to read a sample.");

@@ -64,8 +64,8 @@ pub(super) fn show(
     }
     plot::curve(ui, &plot, &after);
     plot::axis(ui, &plot, 60.0);
-    if let Some(value) = surroundings.marker {
-        plot::marker(ui, &plot, value);
+    if let Some(mark) = surroundings.marker {
+        plot::marker(ui, &plot, mark.value);
     }
     empty_space(ui, decl, &plot, &mut state, &mut after, counted.as_deref());
     handles(ui, decl, &plot, &mut state, &mut after);

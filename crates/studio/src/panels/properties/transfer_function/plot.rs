@@ -78,7 +78,7 @@ pub(super) fn histogram(ui: &Ui, plot: &Plot, histogram: &Histogram, linear: boo
 }
 
 /// The value that the ray probe points at, above the curve.
-pub(super) fn marker(ui: &Ui, plot: &Plot, value: f64) {
+pub(in super::super) fn marker(ui: &Ui, plot: &Plot, value: f64) {
     let color = ui.visuals().strong_text_color();
     let painter = ui.painter().with_clip_rect(plot.area.expand(4.0));
     let x = plot.x(value);

@@ -13,6 +13,7 @@ use super::number::{self, Number};
 use super::row::HEIGHT;
 use super::transfer_function::plot::{self, Plot};
 use super::{exchange, upstream};
+use crate::probe::Mark;
 use shapes::Point;
 
 /// Height of the plane, points.
@@ -80,6 +81,9 @@ pub(super) fn show(
     if volume.is_some() && counted.is_none() {
         let (font, color) = (egui::FontId::proportional(11.0), ui.visuals().weak_text_color());
         ui.painter().text(area.center(), egui::Align2::CENTER_CENTER, "counting voxels...", font, color);
+    }
+    if let Some(mark) = surroundings.marker {
+        marker(ui, &plane, mark);
     }
     shape_row(ui, decl, &mut state, &mut after, surroundings);
     let known = volume.is_none() || counted.is_some();
@@ -181,6 +185,16 @@ fn bodies(ui: &mut Ui, decl: &PropertyDecl, plane: &Plane, state: &mut State, fu
             egui::FontId::proportional(10.5),
             ui.visuals().text_color(),
         );
+    }
+}
+
+/// The sample that the ray probe points at: a ring at its value and gradient; a line at its value where no gradient is known.
+fn marker(ui: &Ui, plane: &Plane, mark: Mark) {
+    let Some(gradient) = mark.gradient else { return plot::marker(ui, &plane.plot, mark.value) };
+    let painter = ui.painter().with_clip_rect(plane.plot.area);
+    let at = plane.to_screen([mark.value, gradient]);
+    for (color, width) in [(ui.visuals().extreme_bg_color, 4.0), (ui.visuals().strong_text_color(), 1.5)] {
+        painter.circle_stroke(at, 5.0, Stroke::new(width, color));
     }
 }
 
