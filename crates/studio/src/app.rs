@@ -53,6 +53,7 @@ pub struct Studio {
     pub(crate) welcome: Welcome,
     pub(crate) screenshot: Screenshot,
     complaints: Complaints,
+    shown_title: String,
 }
 
 impl Studio {
@@ -105,6 +106,7 @@ impl Studio {
             welcome,
             screenshot: Screenshot::default(),
             complaints,
+            shown_title: String::new(),
         })
     }
 
@@ -135,6 +137,7 @@ impl Studio {
         self.key_list.show(context);
         self.screenshot.show(context, &mut self.session);
         self.files.show(&mut self.session, context);
+        self.session.chooser.show(context);
     }
 
     fn welcome_page(&mut self, ui: &mut egui::Ui) {
@@ -146,7 +149,12 @@ impl Studio {
             Some(welcome::Choice::New) if session.network().processors().next().is_none() => self.welcome.close(),
             Some(welcome::Choice::New) => files.new_network(session, &context),
             Some(welcome::Choice::Choose) => files.choose(session, &context),
-            Some(welcome::Choice::Open(path, mode)) => files.open(&path, mode, session, &context),
+            Some(welcome::Choice::Open(path, mode)) => {
+                if mode == Mode::Visualization {
+                    session.tell(Severity::Note, "F5 shows the network behind the application, and goes back");
+                }
+                files.open(&path, mode, session, &context);
+            }
             None => {}
         }
     }
@@ -295,6 +303,11 @@ impl eframe::App for Studio {
             self.session.tell(Severity::Error, problem);
         }
         self.session.end_frame(&context);
-        context.send_viewport_cmd(egui::ViewportCommand::Title(self.title()));
+        let title = self.title();
+        // A command for the window brings about another frame: one in every frame would never let it rest.
+        if title != self.shown_title {
+            context.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
+            self.shown_title = title;
+        }
     }
 }

@@ -18,6 +18,7 @@ mod inspect;
 mod later;
 mod palette;
 mod panels;
+mod pointer;
 mod probe;
 mod quality;
 #[cfg(test)]

@@ -2,6 +2,8 @@
 
 mod window;
 
+use std::time::Duration;
+
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, TouchPhase, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -226,6 +228,41 @@ fn walking_goes_where_the_camera_looks_and_the_cube_looks_from_its_sides() {
 }
 
 #[test]
+fn a_window_at_rest_asks_for_no_frame() {
+    let mut window = quick();
+    window.run_steps(30);
+    let next = window.output().viewport_output.values().map(|viewport| viewport.repaint_delay).min();
+    assert!(next > Some(Duration::from_secs(1)), "{next:?}");
+}
+
+#[test]
+fn what_the_pointer_moved_before_the_button_was_pressed_does_not_turn() {
+    let mut window = quick();
+    let (middle, before) = (canvas(&window), camera(&window));
+    window.hover_at(middle - Vec2::new(150.0, 90.0));
+    window.step();
+    // All in one slow frame.
+    window.hover_at(middle);
+    let pressed = |pressed| Event::PointerButton {
+        pos: middle,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
+    window.event(pressed(true));
+    window.hover_at(middle + Vec2::new(20.0, 0.0));
+    window.step();
+    window.hover_at(middle + Vec2::new(30.0, 0.0));
+    window.step();
+    let (turned, mut expected) = (camera(&window), before);
+    let height = f64::from(window.get_by_label("canvas canvas").rect().height());
+    expected.orbit(-30.0 / height * std::f64::consts::PI, 0.0);
+    for axis in 0..3 {
+        assert!((turned.position[axis] - expected.position[axis]).abs() < 1e-3, "{turned:?} {expected:?}");
+    }
+}
+
+#[test]
 fn a_turning_camera_goes_on_only_with_inertia() {
     let mut window = quick();
     let middle = canvas(&window);
@@ -250,7 +287,7 @@ fn a_turning_camera_goes_on_only_with_inertia() {
     assert_eq!(camera(&window), before, "it goes on after undoing");
     assert!(window.state_mut().session.document.undo());
     assert_ne!(camera(&window), before);
-    assert!(!window.state_mut().session.document.undo());
+    assert_eq!(window.state().session.document.undo_label(), Some("set traversal.sampling"));
 }
 
 #[test]

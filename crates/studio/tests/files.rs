@@ -52,6 +52,29 @@ fn processors(studio: &Studio) -> usize {
 }
 
 #[test]
+fn where_the_system_has_no_dialog_a_path_is_typed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let nothing = Chooser::new(|_| Box::pin(std::future::ready(None)));
+    let mut window = studio(Options { chooser: nothing, ..Options::default() });
+    window.run_steps(2);
+    for typed in ["", "/nowhere/at/all.json", &tiny(folder.path()).display().to_string()] {
+        command(&mut window, Key::O);
+        window::wait_for(&mut window, "type the path");
+        window.run_steps(2);
+        window.event(egui::Event::Text(typed.to_owned()));
+        window.run_steps(2);
+        window.key_press(if typed.is_empty() { Key::Escape } else { Key::Enter });
+        window.run_steps(2);
+        window::wait_while(&mut window, "type the path");
+        wait_until(&mut window, |studio| {
+            let told = studio.session.messages.iter().any(|message| message.text.contains("/nowhere/at/all.json"));
+            typed.is_empty() || told
+        });
+    }
+    wait_until(&mut window, |studio| studio.session.network().name == "Tiny");
+}
+
+#[test]
 fn opening_and_saving_go_through_dialogs_that_the_window_does_not_wait_for() {
     let folder = tempfile::tempdir().expect("a folder");
     let hand = Hand::default();

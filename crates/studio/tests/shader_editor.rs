@@ -9,7 +9,7 @@ use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use rayloom_network::Value;
-use rayloom_studio::{Pane, Studio};
+use rayloom_studio::{Mode, Options, Pane, Studio};
 
 type Window = Harness<'static, Studio>;
 
@@ -25,6 +25,13 @@ fn opened() -> Window {
 fn click(window: &mut Window, label: &str) {
     window.get_by_role_and_label(Role::Button, label).click();
     window.run_steps(5);
+}
+
+/// Clicks what has to be scrolled to.
+fn click_in_sight(window: &mut Window, label: &str) {
+    window.get_by_role_and_label(Role::Button, label).scroll_to_me();
+    window.run_steps(30);
+    click(window, label);
 }
 
 fn own_text(studio: &Studio) -> String {
@@ -64,6 +71,22 @@ fn a_live_text_is_broken_and_mended_while_the_picture_stays() {
     assert!(results.canvases.contains_key("canvas"), "the last good picture is gone");
     assert!(results.shaders.contains_key("traversal"), "the last good shader is gone");
 
+    // A click on the error moves the cursor there.
+    window.get_by_role_and_label(Role::MultilineTextInput, "Shading text").focus();
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Home);
+    window.run_steps(2);
+    // The canvas says it too, after the processor's id.
+    let listed = |label: &str| label.starts_with("edited/shading.wgsl:");
+    window
+        .get_by(|node| node.role() == Role::Label && node.value().or(node.label()).is_some_and(|label| listed(&label)))
+        .click();
+    window.run_steps(4);
+    window.event(egui::Event::Text("still ".to_owned()));
+    window::wait_until(&mut window, |studio| own_text(studio).ends_with("\nstill broken"));
+    assert!(window.state_mut().session.document.undo());
+    window.run_steps(3);
+
     // What is typed is undone like everything else.
     assert!(window.state_mut().session.document.undo());
     window::wait_until(&mut window, |studio| !failed(studio) && !studio.session.engine.is_busy());
@@ -71,6 +94,26 @@ fn a_live_text_is_broken_and_mended_while_the_picture_stays() {
     type_at_end(&mut window, "\n// fine");
     window::wait_until(&mut window, |studio| own_text(studio).ends_with("// fine") && !studio.session.engine.is_busy());
     assert!(window.state().session.engine.results.report.is_complete());
+}
+
+#[test]
+fn a_text_among_exposed_properties_is_edited_without_the_network_in_sight() {
+    let mut window = window::studio(Options {
+        network: Some(window::project("networks/apps/snippet_playground.json")),
+        mode: Mode::Visualization,
+        ..Options::default()
+    });
+    window::wait_until(&mut window, |studio| studio.session.engine.results.canvases.contains_key("canvas"));
+    type_at_end(&mut window, "\nbroken");
+    assert_eq!(own_text(window.state()), "", "it is applied by the button");
+    click_in_sight(&mut window, "Apply");
+    window::wait_until(&mut window, failed);
+    window::wait_for(&mut window, "edited/shading.wgsl:");
+    window::keep_picture(&mut window, "playground-broken");
+    assert!(window.state().session.engine.results.canvases.contains_key("canvas"), "the last good picture is gone");
+    click_in_sight(&mut window, "Revert");
+    window::wait_until(&mut window, |studio| !failed(studio) && !studio.session.engine.is_busy());
+    assert_eq!(own_text(window.state()), "");
 }
 
 /// The folder of the user's snippets is named by the environment, so a test runs itself with one: here it ends with the folder's

@@ -6,7 +6,7 @@ use super::MENUS;
 use crate::panels::GESTURES;
 
 /// Width of the window, points.
-const WIDTH: f32 = 860.0;
+const WIDTH: f32 = 900.0;
 
 /// The list of keys and gestures, over everything else while it is open.
 #[derive(Default)]

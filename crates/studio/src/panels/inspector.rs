@@ -11,6 +11,7 @@ use crate::display::{Layer, Look};
 use crate::inspect::image::{CHECKER, channel_names, depth_range, facts, paint, table};
 use crate::inspect::text::number;
 use crate::inspect::{self, Pixel, Statistics};
+use crate::pointer::dragged_by;
 use crate::session::Session;
 use crate::theme;
 
@@ -20,6 +21,9 @@ use super::probe;
 const MAX_ZOOM: f32 = 200.0;
 /// Screen pixels for an image pixel from which on pixels are shown as squares.
 const SHARP: f32 = 3.0;
+
+/// Width of the list of what to compare with.
+const COMPARE: f32 = 150.0;
 
 /// How one inspector looks at its image.
 struct View {
@@ -108,9 +112,12 @@ impl View {
         numbers: Option<&Statistics>,
     ) {
         ui.horizontal_wrapped(|ui| {
-            self.choose_layer(ui, outport, image);
-            if self.layer != Layer::Natural {
-                self.choose_range(ui, numbers);
+            // A difference is one of colours.
+            if self.other.is_none() {
+                self.choose_layer(ui, outport, image);
+                if self.layer != Layer::Natural {
+                    self.choose_range(ui, numbers);
+                }
             }
             self.choose_other(ui, session, outport, image);
             if ui.selectable_label(self.zoom == 1.0, "Fit").on_hover_text("Show all of the image.").clicked() {
@@ -174,13 +181,21 @@ impl View {
         };
         let others = session.engine.results.outputs.iter().filter(|(address, data)| fits(address, data));
         let text = self.other.as_ref().map_or("Compare...".into(), |other| format!("minus {other}"));
-        egui::ComboBox::from_id_salt(("compare", outport)).selected_text(text).show_ui(ui, |ui| {
+        // Lists do not wrap by themselves.
+        if ui.available_size_before_wrap().x < COMPARE + 24.0 {
+            ui.end_row();
+        }
+        let list = egui::ComboBox::from_id_salt(("compare", outport)).selected_text(text).width(COMPARE).truncate();
+        list.show_ui(ui, |ui| {
             ui.selectable_value(&mut self.other, None, "Nothing");
             for (address, _) in others {
                 ui.selectable_value(&mut self.other, Some(address.clone()), address.to_string());
             }
         });
         if self.other.is_some() {
+            if ui.available_size_before_wrap().x < 170.0 {
+                ui.end_row();
+            }
             let gain = egui::Slider::new(&mut self.gain, 1.0..=1000.0).logarithmic(true).prefix("x ");
             ui.add(gain).on_hover_text("What differences are multiplied with.");
         }
@@ -242,7 +257,7 @@ impl View {
             (self.zoom, self.center) = (1.0, Vec2::splat(0.5));
         }
         let before = self.placed(area, image);
-        self.center -= response.drag_delta() / before.size();
+        self.center -= dragged_by(response) / before.size();
         let scroll = ui.input(|input| input.smooth_scroll_delta.y);
         if let Some(pointer) = response.hover_pos().filter(|_| scroll != 0.0) {
             let held = (pointer - before.min) / before.size();

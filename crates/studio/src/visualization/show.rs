@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::time::Duration;
 
 use egui::{Rect, UiBuilder, Vec2};
 use rayloom_network::{Address, Preset, PropertyDecl};
@@ -20,6 +21,9 @@ const GAP: f32 = 2.0;
 
 /// Share of the window that a large canvas takes.
 const LARGE: f32 = 0.7;
+
+/// How long a message stays.
+const SHOWN: Duration = Duration::from_secs(8);
 
 /// What the mode remembers.
 #[derive(Default)]
@@ -46,7 +50,9 @@ impl Visualization {
                 });
             });
         }
+        let area = ui.available_rect_before_wrap();
         self.grid(ui, session);
+        latest_message(ui, area, session);
     }
 
     /// Reads the application again when the network changed.
@@ -141,6 +147,19 @@ impl Visualization {
             });
         }
     }
+}
+
+/// What the user was told just now, over the canvases: there is no status line.
+fn latest_message(ui: &egui::Ui, area: Rect, session: &Session) {
+    let Some(message) = session.messages.last() else { return };
+    let Some(rest) = SHOWN.checked_sub(message.when.elapsed()) else { return };
+    ui.ctx().request_repaint_after(rest);
+    let text = message.text.lines().next().unwrap_or_default().to_owned();
+    let font = egui::FontId::proportional(13.0);
+    let galley = ui.painter().layout(text, font, egui::Color32::WHITE, area.width() - 60.0);
+    let place = egui::Align2::CENTER_BOTTOM.align_size_within_rect(galley.size(), area.shrink(22.0));
+    ui.painter().rect_filled(place.expand2(Vec2::new(10.0, 6.0)), 5.0, egui::Color32::from_black_alpha(190));
+    ui.painter().galley(place.min, galley, egui::Color32::WHITE);
 }
 
 /// Cells for pictures: as many columns as make them largest when they are about square.

@@ -28,7 +28,7 @@ enum News {
 
 /// The networks found so far. Dropped, it waits for the picture that is being rendered.
 pub struct Gallery {
-    /// The networks, those of the folder first.
+    /// The networks, applications first.
     pub entries: Vec<Entry>,
     news: Receiver<News>,
     task: Task<()>,

@@ -28,10 +28,10 @@ pub fn folder() -> Option<PathBuf> {
     installed.chain([sources]).find(|folder| folder.join("apps").is_dir())
 }
 
-/// The networks in a folder and its `apps`, by name; files that hold no network are left out. Waits for the disk.
+/// The networks in the `apps` of a folder and in itself, by name; files that hold no network are left out. Waits for the disk.
 pub fn list(folder: &Path, registry: &Arc<Registry>) -> Vec<(Shipped, Network)> {
     let mut found = Vec::new();
-    for (folder, is_application) in [(folder.to_owned(), false), (folder.join("apps"), true)] {
+    for (folder, is_application) in [(folder.join("apps"), true), (folder.to_owned(), false)] {
         let mut files: Vec<PathBuf> =
             std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).collect();
         files.retain(|path| path.extension().is_some_and(|extension| extension == "json"));

@@ -6,6 +6,9 @@ use thiserror::Error;
 use super::connect::{End, connect};
 use super::link::link_cameras;
 
+/// How far apart processors lie that follow one another, points of the canvas.
+const COLUMN: f64 = 220.0;
+
 /// Why processors cannot be wired this way.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum WiringError {
@@ -91,7 +94,28 @@ pub fn insert(network: &mut Network, type_id: &str, at: [f64; 2], wire: &Connect
     }
     network.connect(&wire.from, (id.as_str(), inport))?;
     network.connect((id.as_str(), outport), &wire.to)?;
+    make_room(network, &id, wire)?;
     Ok(id)
+}
+
+/// Moves a processor that was put into a wire clear of the one before it, and all that lies behind out of its way.
+fn make_room(network: &mut Network, id: &str, wire: &Connection) -> Result<(), EditError> {
+    let place = |id: &str| network.processor(id).map(|processor| processor.position());
+    let (Some([before, _]), Some([behind, _]), Some([x, y])) =
+        (place(&wire.from.processor), place(&wire.to.processor), place(id))
+    else {
+        return Ok(());
+    };
+    // Wires that run backwards are the user's own order.
+    if behind <= before {
+        return Ok(());
+    }
+    let x = x.max(before + COLUMN);
+    let missing = (x + COLUMN - behind).max(0.0);
+    let later = network.processors().filter(|processor| processor.id() != id && processor.position()[0] >= behind);
+    let moved: Vec<_> = later.map(|processor| (processor.id().to_owned(), processor.position())).collect();
+    network.set_position(id, [x, y])?;
+    moved.into_iter().try_for_each(|(id, [x, y])| network.set_position(&id, [x + missing, y]))
 }
 
 /// Puts a processor of another type in a processor's place: same id, place and name; values of properties, connections and

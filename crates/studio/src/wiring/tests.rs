@@ -117,3 +117,20 @@ fn copies_keep_values_and_the_wires_among_them() {
     let refused = paste(&mut network, "not a network", [0.0, 0.0]).expect_err("refused");
     assert!(refused.to_string().starts_with("the clipboard holds no processors: "), "{refused}");
 }
+
+#[test]
+fn what_is_put_into_a_wire_pushes_aside_what_lies_behind() {
+    let mut network = chain();
+    for (id, x) in [("source", -220.0), ("traversal", 0.0), ("canvas", 220.0)] {
+        network.set_position(id, [x, 0.0]).expect("moved");
+    }
+    let x = |network: &Network, id: &str| network.processor(id).expect("there").position()[0];
+    let new =
+        insert(&mut network, "background", [110.0, 20.0], &wire("traversal.image -> canvas.image")).expect("fits");
+    assert_eq!([x(&network, &new), x(&network, "canvas"), x(&network, "source")], [220.0, 440.0, -220.0]);
+    // Where there is room, nothing moves.
+    network.set_position("canvas", [900.0, 0.0]).expect("moved");
+    let wire = wire(&format!("{new}.image -> canvas.image"));
+    let newer = insert(&mut network, "background", [500.0, 0.0], &wire).expect("fits");
+    assert_eq!([x(&network, &newer), x(&network, "canvas")], [500.0, 900.0]);
+}

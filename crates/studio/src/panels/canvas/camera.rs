@@ -11,6 +11,7 @@ use rayloom_processors::{Data, Image};
 use super::cube;
 use super::walk::Walker;
 use crate::inspect::Pixel;
+use crate::pointer::dragged_by;
 use crate::session::{Session, Severity};
 use crate::views::VIEWS;
 
@@ -264,7 +265,7 @@ fn seen_at(camera: &Camera, [x, y]: [f64; 2], depth: f64) -> DVec3 {
 
 /// The left button turns, the middle one or Shift moves, the right one zooms.
 fn drag(ui: &egui::Ui, response: &egui::Response, shown: Rect, camera: &mut Camera) {
-    let drag = response.drag_delta() / shown.height().max(1.0);
+    let drag = dragged_by(response) / shown.height().max(1.0);
     let (x, y) = (f64::from(drag.x), f64::from(drag.y));
     let shift = ui.input(|input| input.modifiers.shift);
     let height = visible_height(camera);
@@ -304,7 +305,7 @@ fn stroll(ui: &egui::Ui, response: &egui::Response, shown: Rect, walker: &Walker
         walker.step(ui, size, camera);
     }
     let moved = match response.dragged() {
-        true => response.drag_delta(),
+        true => dragged_by(response),
         false if response.hovered() => ui.input(|input| input.pointer.delta()),
         false => egui::Vec2::ZERO,
     } / shown.height().max(1.0);

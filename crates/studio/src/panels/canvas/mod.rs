@@ -23,18 +23,20 @@ pub const GESTURES: &[(&str, &str)] = &[
     ("Drag", "turn; slices: place the crosshair"),
     ("Shift or middle drag", "move"),
     ("Right drag", "zoom"),
-    ("Wheel, pinch", "zoom to the pointer; slices: the wheel goes through, Ctrl and wheel zoom"),
+    ("Wheel, pinch", "zoom to the pointer"),
+    ("Wheel on a slice", "go through; with Ctrl: zoom to the pointer"),
     ("Two fingers", "move, zoom and roll"),
     ("Double click", "centre on the surface"),
     ("Right click", "these as a menu"),
-    ("Ctrl click", "ray probe: follow the ray of a pixel"),
+    ("Ctrl and click", "ray probe: follow the ray of a pixel"),
     ("A, Home", "show everything"),
     ("O", "orthographic or perspective"),
     ("1, 3, 7", "from the front, the right, above"),
     ("Q, E", "roll"),
     ("Arrows", "turn by 15 degrees"),
-    ("W", "walk: W A S D, Q down, E up, Shift runs, the pointer looks, Esc ends"),
     ("V, I", "orientation cube, inertia: on or off"),
+    ("W", "walk; Esc ends"),
+    ("Walking", "W A S D, Q down, E up, Shift runs"),
 ];
 
 /// What the panel remembers.
@@ -105,7 +107,8 @@ impl CanvasPanel {
         if ids.len() > 1 {
             ui.horizontal(|ui| {
                 for id in &ids {
-                    ui.selectable_value(&mut self.canvas, Some((*id).to_owned()), *id);
+                    let label = session.network().processor(id).and_then(|canvas| canvas.label());
+                    ui.selectable_value(&mut self.canvas, Some((*id).to_owned()), label.unwrap_or(id));
                 }
             });
         }

@@ -1,15 +1,16 @@
 //! Slices in the user's hand: scrolling, and a crosshair that slices of the same volume share.
 
-use egui::{Color32, PointerButton, Pos2, Rect, Stroke};
+use egui::{Color32, Key, PointerButton, Pos2, Rect, Stroke};
 use rayloom_network::{Network, Value};
 use rayloom_processors::Data;
 use rayloom_volume::Volume;
 
 use super::number;
+use crate::pointer::dragged_by;
 use crate::session::Session;
 
-/// Scrolled points for a step to the next voxel.
-const STEP: f32 = 12.0;
+/// Scrolled points for a step to the next voxel: one notch of a wheel.
+const STEP: f32 = 40.0;
 
 /// A slice across an axis, and how it lies in the picture.
 struct Slice {
@@ -39,6 +40,13 @@ impl Slice {
         let offset = point - self.middle;
         let [right, up] = [f64::from(offset.x), -f64::from(offset.y)].map(|points| points * self.per_point);
         [0.5 + (right + self.pan[0]) / self.extent[self.axes[1]], 0.5 + (up + self.pan[1]) / self.extent[self.axes[2]]]
+    }
+
+    /// What to pan by so that a point of the screen shows the same when a point of the screen is `scale` times as many world units.
+    fn pan_for(&self, point: Pos2, scale: f64) -> [f64; 2] {
+        let offset = point - self.middle;
+        let kept = self.per_point * (1.0 - scale);
+        [self.pan[0] + f64::from(offset.x) * kept, self.pan[1] - f64::from(offset.y) * kept]
     }
 
     /// The point of the screen with these volume coordinates to the right and up.
@@ -84,10 +92,15 @@ pub(super) fn interact(ui: &egui::Ui, response: &egui::Response, shown: Rect, se
     let siblings = siblings(session.network(), processor);
     let before = session.document.revision();
     scroll(ui, response, session, processor, data.volume.dims[slice.axes[0]]);
+    zoom(ui, response, session, processor, &slice);
+    if shows_all(ui, response) {
+        session.set(processor, "zoom", Value::Float(1.0));
+        session.set(processor, "pan", Value::Vector(vec![0.0; 2]));
+    }
     let moves = response.dragged_by(PointerButton::Middle)
         || (response.dragged_by(PointerButton::Primary) && ui.input(|input| input.modifiers.shift));
     if moves {
-        let delta = response.drag_delta();
+        let delta = dragged_by(response);
         let [x, y] = [f64::from(delta.x), f64::from(-delta.y)].map(|points| points * slice.per_point);
         session.set(processor, "pan", Value::Vector(vec![slice.pan[0] - x, slice.pan[1] - y]));
     } else if let Some(pointer) = response.interact_pointer_pos().filter(|_| is_held(ui, response)) {
@@ -101,22 +114,38 @@ fn is_held(ui: &egui::Ui, response: &egui::Response) -> bool {
     response.is_pointer_button_down_on() && ui.input(|input| input.pointer.primary_down())
 }
 
-/// The wheel goes through the volume, voxel by voxel; with Ctrl it zooms.
+/// The wheel goes through the volume, voxel by voxel.
 fn scroll(ui: &egui::Ui, response: &egui::Response, session: &mut Session, processor: &str, voxels: u32) {
-    if !response.hovered() {
-        return;
-    }
-    let (scroll, zoom) = ui.input(|input| (input.smooth_scroll_delta.y, input.zoom_delta()));
-    if zoom != 1.0
-        && let Some(before) = number(session.network(), processor, "zoom")
-    {
-        session.set(processor, "zoom", Value::Float((before * f64::from(zoom)).clamp(0.01, 1000.0)));
-    } else if scroll != 0.0
+    let scroll = ui.input(|input| input.smooth_scroll_delta.y);
+    if response.hovered()
+        && scroll != 0.0
         && let Some(before) = number(session.network(), processor, "position")
     {
         let after = before + f64::from(scroll / STEP) / f64::from(voxels);
         session.set(processor, "position", Value::Float(after.clamp(0.0, 1.0)));
     }
+}
+
+/// The wheel with Ctrl, or two fingers, zoom where the pointer is.
+fn zoom(ui: &egui::Ui, response: &egui::Response, session: &mut Session, processor: &str, slice: &Slice) {
+    let factor = f64::from(ui.input(egui::InputState::zoom_delta));
+    if let Some(pointer) = response.hover_pos().filter(|_| factor != 1.0)
+        && let Some(before) = number(session.network(), processor, "zoom")
+    {
+        let after = (before * factor).clamp(0.01, 1000.0);
+        session.set(processor, "zoom", Value::Float(after));
+        session.set(processor, "pan", Value::Vector(slice.pan_for(pointer, before / after).into()));
+    }
+}
+
+/// Whether the user wants to see all of the slice, by a key or the menu.
+fn shows_all(ui: &egui::Ui, response: &egui::Response) -> bool {
+    let key = |key| ui.input(|input| input.modifiers.is_none() && input.key_pressed(key));
+    let mut wanted = response.hovered() && !ui.ctx().text_edit_focused() && (key(Key::A) || key(Key::Home));
+    response.context_menu(|ui| {
+        wanted |= ui.add(egui::Button::new("Show everything").shortcut_text("A")).clicked();
+    });
+    wanted
 }
 
 /// Puts the other slices through the point under the pointer.
@@ -165,6 +194,10 @@ mod tests {
         };
         let [right, up] = slice.coordinates(slice.point([0.3, 0.8]));
         assert!((right - 0.3).abs() < 1e-5 && (up - 0.8).abs() < 1e-5);
+        let point = Pos2::new(310.0, 40.0);
+        let zoomed = Slice { per_point: 0.125, pan: slice.pan_for(point, 0.5), ..slice };
+        let pairs = zoomed.coordinates(point).into_iter().zip(slice.coordinates(point));
+        assert!(pairs.into_iter().all(|(zoomed, before)| (zoomed - before).abs() < 1e-9));
         // The wheel of a mouse and the arithmetic agree about up.
         assert!(slice.point([0.3, 0.8]).y < slice.point([0.3, 0.7]).y);
     }

@@ -10,7 +10,7 @@ use super::scene::node_id;
 use crate::session::Session;
 use crate::wiring::End;
 
-/// Space around everything when all of it is shown, points of the canvas.
+/// Space around everything when all of it is shown, points of the window.
 const BORDER: f32 = 36.0;
 
 impl NetworkPanel {
@@ -80,7 +80,10 @@ impl NetworkPanel {
             bounds = Some(bounds.map_or(rect, |all| all.union(rect)));
         }
         self.fit = false;
-        let shown = bounds.map_or(Rect::from_min_size(egui::Pos2::ZERO, area.size()), |all| all.expand(BORDER));
+        let shown = bounds.map_or(Rect::from_min_size(egui::Pos2::ZERO, area.size()), |all| {
+            let room = (area.size() - egui::Vec2::splat(2.0 * BORDER)).max(egui::Vec2::splat(1.0));
+            all.expand(BORDER * (all.size() / room).max_elem().max(1.0))
+        });
         self.view.scene_rect = match shown.width() < area.width() && shown.height() < area.height() {
             true => Rect::from_center_size(shown.center(), area.size()),
             false => shown,

@@ -6,6 +6,7 @@ use rayloom_network::{EditError, Frame, Network};
 use super::action::Action;
 use super::geometry::Geometry;
 use super::text::Text;
+use crate::pointer::dragged_by;
 use crate::session::Session;
 
 /// Height of a heading.
@@ -70,7 +71,7 @@ pub fn show(ui: &mut Ui, session: &Session, zoom: f32, actions: &mut Vec<Action>
 
 fn drag(response: &Response, edit: impl FnOnce(Vec2) -> FrameEdit, actions: &mut Vec<Action>) {
     if response.dragged_by(egui::PointerButton::Primary) {
-        actions.push(Action::Frame(edit(response.drag_delta())));
+        actions.push(Action::Frame(edit(dragged_by(response))));
     }
 }
 

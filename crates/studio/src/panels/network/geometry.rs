@@ -17,7 +17,7 @@ pub const WIRE: EdgeShape = EdgeShape::Flow { curvature: 0.5, min_span: 36.0 };
 const SNAP: f32 = 22.0;
 
 /// Radius of a socket for the pointer, points of the canvas.
-const RADIUS: f32 = 8.0;
+pub const RADIUS: f32 = 8.0;
 
 /// Spacing of the points that a wire is measured by.
 const STEP: f32 = 5.0;

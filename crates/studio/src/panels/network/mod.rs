@@ -36,7 +36,7 @@ const TOUCH: f32 = 6.0;
 
 /// What the pointer does, for the list of keys.
 pub const GESTURES: &[(&str, &str)] = &[
-    ("Drag a socket", "connect; a menu of what fits where nothing is"),
+    ("Drag a socket", "connect; on empty canvas: add what fits"),
     ("Drag a wire's end", "plug it elsewhere, or cut it"),
     ("Alt and click", "cut a wire"),
     ("Rest on a wire", "see what flows there"),

@@ -10,7 +10,7 @@ use super::text::Text;
 /// Height of the part with the name, points.
 const HEAD: f32 = 40.0;
 /// Height of a row of ports.
-const ROW: f32 = 20.0;
+pub const ROW: f32 = 20.0;
 /// Space below the last row.
 const FOOT: f32 = 6.0;
 /// Least width of a node.

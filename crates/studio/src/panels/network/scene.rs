@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use egui::{Color32, Pos2, Response, Shape, Stroke, Ui, Vec2, WidgetInfo, WidgetType};
+use egui::{Color32, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, UiBuilder, Vec2, WidgetInfo, WidgetType};
 use egui_graph::edge::Edge;
 use egui_graph::node::{EdgeEvent, Node, NodeId};
 use egui_graph::{EdgesCtx, NodesCtx, SocketKind};
@@ -11,14 +11,17 @@ use rayloom_network::{Address, Connection, Network, PortType, Processor};
 use super::action::Action;
 use super::drag::{Drag, Target};
 use super::frames;
-use super::geometry::{Geometry, WIRE};
+use super::geometry::{Geometry, RADIUS, WIRE};
 use super::menus;
-use super::node::{self, Card, Light, Port};
+use super::node::{self, Card, Light, Port, ROW};
 use super::state::{State, cost, short};
 use super::waiting::waiting;
 use crate::session::Session;
 use crate::theme;
 use crate::wiring::End;
+
+/// Radius of a socket for the pointer, points of the window, where the canvas leaves room for it.
+const GRIP: f32 = 7.0;
 
 /// The accent of ports of processors whose type is not known.
 const UNKNOWN: Color32 = Color32::from_gray(0x80);
@@ -147,18 +150,32 @@ impl<'a> Scene<'a> {
 
     fn socket(
         &mut self,
-        ui: &Ui,
+        ui: &mut Ui,
         node: &Response,
         (id, index, kind): (&str, usize, SocketKind),
         socket: &Response,
         port: &Port,
     ) {
         let Some(end) = self.end(id, kind, index) else { return };
-        node::socket(ui, node, socket, port, if kind == SocketKind::Input { -1.0 } else { 1.0 });
+        let grip = self.grip(ui, node, (index, kind), socket.rect.center());
+        if grip.is_pointer_button_down_on() && ui.input(|input| input.pointer.primary_pressed()) {
+            self.actions.push(Action::Hold(end.clone()));
+        }
+        node::socket(ui, node, &grip, port, if kind == SocketKind::Input { -1.0 } else { 1.0 });
         let side = if kind == SocketKind::Input { "input" } else { "output" };
-        socket.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("{side} {}", end.address())));
+        grip.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("{side} {}", end.address())));
         self.geometry.sockets.insert(end.clone(), socket.rect.center());
-        self.resting.push((socket.clone(), Resting::Socket(end)));
+        self.resting.push((grip, Resting::Socket(end)));
+    }
+
+    /// Where a socket is taken hold of, over the node: the library lets go of wires only beside nodes, and there the pointer is
+    /// still near enough to them to take hold of the node.
+    fn grip(&self, ui: &mut Ui, node: &Response, (index, kind): (usize, SocketKind), center: Pos2) -> Response {
+        let radius = (GRIP / self.geometry.to_window.scaling).clamp(RADIUS, 0.5 * ROW);
+        let id = node.id.with(("grip", index, kind == SocketKind::Input));
+        let area = Rect::from_center_size(center, Vec2::splat(2.0 * radius));
+        let builder = UiBuilder::new().layer_id(node.layer_id).max_rect(area);
+        ui.scope_builder(builder, |ui| ui.interact(area, id, Sense::click_and_drag())).inner
     }
 
     fn end(&self, id: &str, kind: SocketKind, index: usize) -> Option<End> {

@@ -3,6 +3,7 @@
 use egui::{Align2, CornerRadius, CursorIcon, Id, Key, Rect, Response, Sense, StrokeKind, TextEdit, Ui, Vec2};
 
 use super::row::HEIGHT;
+use crate::pointer::dragged_by;
 
 /// What the user entered.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,7 +73,7 @@ impl Number<'_> {
 
     fn drag(&self, ui: &Ui, id: Id, response: &Response, width: f32, value: f64) -> Entered {
         let fine = if ui.input(|input| input.modifiers.shift) { 0.1 } else { 1.0 };
-        let moved = f64::from(response.drag_delta().x) * fine;
+        let moved = f64::from(dragged_by(response).x) * fine;
         let Dragged(mut at) = ui.data(|data| data.get_temp(id)).unwrap_or(Dragged(self.share(value)));
         at = match self.slider {
             Some(_) => (at + moved / f64::from(width.max(1.0))).clamp(0.0, 1.0),

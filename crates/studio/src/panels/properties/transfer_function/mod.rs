@@ -12,6 +12,7 @@ use super::number::{self, Number};
 use super::row::HEIGHT;
 use super::transfer_function::knots::Side;
 use super::{exchange, upstream};
+use crate::pointer::dragged_by;
 use plot::Plot;
 
 /// Height of the plot, points.
@@ -207,7 +208,7 @@ fn window(ui: &mut Ui, plot: &Plot, area: Rect, state: &mut State, function: &mu
     if response.dragged()
         && let Some((original, moved)) = &mut state.window
     {
-        *moved += response.drag_delta();
+        *moved += dragged_by(&response);
         let shift = plot.range.width() * f64::from(moved.x / plot.area.width().max(1.0));
         let shifted = knots::window_level(original, plot.tidy(shift), f64::from(-0.01 * moved.y).exp());
         if shifted.check().is_ok() {

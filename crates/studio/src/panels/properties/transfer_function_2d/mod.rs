@@ -13,6 +13,7 @@ use super::number::{self, Number};
 use super::row::HEIGHT;
 use super::transfer_function::plot::{self, Plot};
 use super::{exchange, upstream};
+use crate::pointer::dragged_by;
 use crate::probe::Mark;
 use shapes::Point;
 
@@ -155,7 +156,7 @@ fn bodies(ui: &mut Ui, decl: &PropertyDecl, plane: &Plane, state: &mut State, fu
     if response.dragged()
         && let Some(index) = state.selected
     {
-        let delta = response.drag_delta();
+        let delta = dragged_by(&response);
         let value = f64::from(delta.x / plane.plot.area.width()) * plane.plot.range.width();
         let gradient = f64::from(-delta.y / plane.plot.area.height()) * plane.gradient_max;
         let shape = &mut function.primitives[index].shape;

@@ -1,15 +1,22 @@
 //! Asking the user for a file: the dialog and what is done with the file stay away from the window's thread.
 
+mod typed;
+
 use std::collections::HashMap;
 use std::future::Future;
 use std::path::{Path, PathBuf};
 use std::pin::Pin;
 use std::sync::Arc;
 use std::task::Poll;
+use std::time::{Duration, Instant};
 
 use egui::{Context, Id};
 
 use crate::later::Later;
+use typed::TypedPaths;
+
+/// A dialog that was cancelled sooner than this was never there: no portal answers, no program that shows one is installed.
+const NEVER_SHOWN: Duration = Duration::from_millis(500);
 
 /// What a dialog asks for.
 pub struct Question<'a> {
@@ -28,7 +35,10 @@ pub type Choice = Pin<Box<dyn Future<Output = Option<PathBuf>> + Send>>;
 
 /// Whom to ask for files: the system's dialogs by default, anything else in tests.
 #[derive(Clone)]
-pub struct Chooser(Arc<dyn Fn(&Question<'_>) -> Choice + Send + Sync>);
+pub struct Chooser {
+    ask: Arc<dyn Fn(&Question<'_>) -> Choice + Send + Sync>,
+    typed: TypedPaths,
+}
 
 impl Default for Chooser {
     fn default() -> Self {
@@ -43,9 +53,10 @@ impl std::fmt::Debug for Chooser {
 }
 
 impl Chooser {
-    /// Asks this function, on the window's thread; it must return at once.
+    /// Asks this function, on the window's thread; it must return at once. Where it answers at once that nothing was chosen, the
+    /// path is asked for in the window.
     pub fn new(ask: impl Fn(&Question<'_>) -> Choice + Send + Sync + 'static) -> Self {
-        Self(Arc::new(ask))
+        Self { ask: Arc::new(ask), typed: TypedPaths::default() }
     }
 
     /// Asks for a file and works with it. `None` in the end when the user cancelled.
@@ -56,8 +67,23 @@ impl Chooser {
         work: impl FnOnce(PathBuf) -> T + Send + 'static,
     ) -> Later<Option<T>> {
         // The dialog is made on the window's thread, as some systems demand; only the waiting is done elsewhere.
-        let choice = (self.0)(question);
-        Later::start(context, move || pollster::block_on(choice).map(work))
+        let (asked, choice) = (Instant::now(), (self.ask)(question));
+        let (typed, window) = (self.typed.clone(), context.clone());
+        let verb = if question.save_as.is_some() { "Save" } else { "Open" };
+        let heading = format!("{verb}: {}", question.name);
+        let folder = question.folder.map(|folder| folder.join(question.save_as.unwrap_or_default()));
+        let text = folder.map(|path| path.display().to_string()).or(question.save_as.map(str::to_owned));
+        Later::start(context, move || {
+            let chosen = pollster::block_on(choice);
+            let never_shown = chosen.is_none() && asked.elapsed() < NEVER_SHOWN;
+            let chosen = if never_shown { typed.ask(&window, heading, text.unwrap_or_default()) } else { chosen };
+            chosen.map(work)
+        })
+    }
+
+    /// Shows what the window itself asks for. To be called every frame.
+    pub(crate) fn show(&self, context: &Context) {
+        self.typed.show(context);
     }
 }
 
