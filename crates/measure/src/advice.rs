@@ -112,7 +112,7 @@ fn surface(measured: &Measured) -> Option<String> {
 /// How the network as saved does.
 fn saved(measurements: &Measurements, front: &Front<'_>) -> Option<String> {
     let index = measurements.saved()?;
-    if front.unseen() == Some(index) {
+    if choice(measurements) == Some(index) {
         return Some("That is how the network is saved.".into());
     }
     let seen = if front.settings[index].all.errors.p99 <= VISIBLE_ERROR {

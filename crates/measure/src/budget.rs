@@ -81,6 +81,7 @@ pub(crate) fn budget(
         switch("weights of interpolation", traversal, "sampling", json!("trilinear")),
         switch(GRADIENT, traversal, "gradient", json!("central4")),
         switch("storage of the volume", chain.source.as_deref(), "precision", json!("32-bit")),
+        switch("storage of the gradients", chain.gradients(network), "storage", json!("32-bit")),
         switch("storage of entry and exit points", Some(&chain.view), "format", json!("32-bit")),
         switch("storage of the picture", traversal, "target", json!("32-bit")),
         switch("jitter", traversal, "jitter", json!(false)),

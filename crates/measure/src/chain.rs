@@ -53,6 +53,11 @@ impl Chain {
         Ok(Self { geometry, source: precise, image, volume, entry, view })
     }
 
+    /// The processor on which the storage of precomputed gradients is chosen, if the volume has any.
+    pub fn gradients(&self, network: &Network) -> Option<&str> {
+        network.value(&self.volume.processor, "storage").map(|_| self.volume.processor.as_str())
+    }
+
     /// Id of the ray traversal.
     pub fn traversal(&self) -> &str {
         &self.image.processor

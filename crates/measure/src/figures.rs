@@ -24,7 +24,8 @@ impl Summary {
         sorted.sort_by(f64::total_cmp);
         let last = sorted.len().checked_sub(1)?;
         let at = |share: f64| sorted[(last as f64 * share).round() as usize];
-        Some(Self { median: at(0.5), low: at(0.05), high: at(0.95) })
+        let median = 0.5 * (sorted[last / 2] + sorted[last.div_ceil(2)]);
+        Some(Self { median, low: at(0.05), high: at(0.95) })
     }
 }
 
@@ -161,6 +162,12 @@ fn surface_errors(shots: &[&Shot], expected: &[&Expected], voxel: f64) -> Result
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn timings_have_a_middle() {
+        let median = |timings: &[f64]| Summary::of(timings).map(|summary| summary.median);
+        assert_eq!([median(&[3.0, 1.0, 2.0]), median(&[4.0, 1.0]), median(&[])], [Some(2.0), Some(2.5), None]);
+    }
 
     #[test]
     fn views_are_taken_together() {

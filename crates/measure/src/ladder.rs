@@ -12,7 +12,6 @@ enum Owner {
     Traversal,
     View,
     Source,
-    /// What feeds the traversal, where that is a gradient volume.
     Gradients,
 }
 
@@ -158,8 +157,7 @@ fn setting(ladder: &Ladder, rung: usize, network: &Network, chain: &Chain) -> Op
             Owner::Traversal => chain.traversal(),
             Owner::View => &chain.view,
             Owner::Source => chain.source.as_deref()?,
-            // No other processor that gives volumes has a `storage`.
-            Owner::Gradients => &chain.volume.processor,
+            Owner::Gradients => chain.gradients(network)?,
         };
         let processor = network.processor(owner)?;
         let (decl, own) = (processor.property_decl(knob.property)?, processor.value(knob.property)?);

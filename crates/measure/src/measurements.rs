@@ -116,6 +116,11 @@ impl Measurements {
         self.settings.iter().any(|one| one.all.surface.is_some())
     }
 
+    /// Whether no other setting beats this one in time, or in samples.
+    pub(crate) fn is_on_front(&self, index: usize) -> bool {
+        self.front_time.contains(&index) || self.front_samples.contains(&index)
+    }
+
     /// The network as saved, if it can be rendered.
     pub(crate) fn saved(&self) -> Option<usize> {
         self.settings.iter().position(|one| one.setting.assignments.is_empty())

@@ -140,6 +140,7 @@ pub(crate) fn storage(network: &Network, chain: &Chain) -> Setting {
     let mut assignments =
         vec![assignment(traversal, "target", json!("32-bit")), assignment(&chain.view, "format", json!("32-bit"))];
     assignments.extend(chain.source.iter().map(|source| assignment(source, "precision", json!("32-bit"))));
+    assignments.extend(chain.gradients(network).map(|gradients| assignment(gradients, "storage", json!("32-bit"))));
     if network.value(traversal, "sampling") == Some(Value::Text("filtered".into())) {
         assignments.push(assignment(traversal, "sampling", json!("trilinear")));
     }

@@ -26,14 +26,14 @@ pub(crate) fn page(measurements: &Measurements) -> Result<String, MeasureError> 
     let parts = [
         head(&name, measurements)?,
         plots(measurements),
+        measurements.budget.as_ref().map(|budget| tables::budget(budget, measurements)).unwrap_or_default(),
+        maps(measurements)?,
         tables::settings(measurements),
         tables::dominated(measurements),
         views::displayed(measurements),
         views::surfaces(measurements),
-        tables::refused(measurements),
-        measurements.budget.as_ref().map(|budget| tables::budget(budget, measurements)).unwrap_or_default(),
-        maps(measurements)?,
         views::by_view(measurements)?,
+        tables::refused(measurements),
         tables::conditions(measurements),
     ];
     Ok(format!(

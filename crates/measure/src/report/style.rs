@@ -55,7 +55,7 @@ ul{margin:0;padding-left:20px}li{margin:3px 0}
 .reason{white-space:pre-line}
 .scale{display:flex;gap:8px;align-items:center;max-width:320px;color:var(--quiet);font-size:12px;margin:4px 0 14px}
 .scale i{flex:1;height:9px;border-radius:5px}
-.maps{display:grid;grid-template-columns:repeat(auto-fill,minmax(200px,1fr));gap:18px}
+.maps{display:grid;grid-template-columns:repeat(auto-fill,minmax(170px,1fr));gap:18px}
 .study svg{max-width:860px;margin:0 auto 12px}
 .maps.small{grid-template-columns:repeat(auto-fill,minmax(120px,1fr));margin-bottom:14px}
 summary{cursor:pointer;color:var(--best);font-weight:600;font-size:14px}

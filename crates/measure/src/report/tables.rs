@@ -22,7 +22,7 @@ pub(super) fn settings(measurements: &Measurements) -> String {
     format!(
         "<section><h2>All settings, the most accurate first</h2><div class=\"scroll\"><table><thead><tr><th>Setting</th>\
          <th>Time<br>median</th><th>5 to 95 %<br>ms</th><th>Samples</th><th>of them<br>contributing</th><th>Error<br>RMS</th>\
-         <th>mean</th><th>99 %<br>of pixels</th><th>largest</th><th>Visibly<br>off</th><th>ln T<br>largest</th></tr></thead>\
+         <th>99 %<br>of pixels</th><th>largest</th><th>Visibly<br>off</th><th>ln T<br>largest</th></tr></thead>\
          <tbody>{rows}</tbody></table></div><p class=\"quiet\">Errors of premultiplied colours and opacities from 0 to 1, over all \
          views; of each pixel the largest of its four channels. Visibly off: by more than 1/510, half a code of an 8-bit picture. \
          ln T: logarithm of the transmittance, which tells errors in deep and dark parts. Tinted: on the front of time and \
@@ -43,13 +43,12 @@ fn row(measurements: &Measurements, index: usize) -> String {
     let contributing = counts.contributing as f64 / counts.samples.max(1) as f64;
     format!(
         "<tr{class} title=\"{}\"><td>{}{departs}{chosen}</td><td>{time}</td><td><small>{spread}</small></td><td>{}</td><td>{}</td><td>{}</td>\
-         <td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
+         <td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
         escaped(&notes.join(" ")),
         escaped(&setting.name),
         number(counts.samples as f64),
         percent(contributing),
         number(errors.rmse),
-        number(errors.mean),
         number(errors.p99),
         number(errors.max),
         percent(errors.visible),
@@ -66,12 +65,18 @@ pub(super) fn dominated(measurements: &Measurements) -> String {
         let time = one.all.time_ms.map_or_else(|| "\u{2013}".into(), |time| milliseconds(time.median));
         format!("<td>{time}</td><td>{}</td>", number(one.all.errors.rmse))
     };
-    let line = |(&worse, &better): (&usize, &usize)| {
-        let (worse, better) = (&measurements.settings[worse], &measurements.settings[better]);
-        let clear = match (worse.all.time_ms, better.all.time_ms) {
-            (Some(worse), Some(better)) if better.high < worse.low => "",
-            _ => "times overlap",
-        };
+    let time = |index: usize| measurements.settings[index].all.time_ms;
+    let overlap = |(worse, better): (usize, usize)| match (time(worse), time(better)) {
+        (Some(worse), Some(better)) => better.high >= worse.low,
+        _ => true,
+    };
+    let mut pairs: Vec<(usize, usize)> =
+        measurements.dominated.iter().map(|(&worse, &better)| (worse, better)).collect();
+    // The clear cases first.
+    pairs.sort_by_key(|pair| overlap(*pair));
+    let line = |pair: (usize, usize)| {
+        let (worse, better) = (&measurements.settings[pair.0], &measurements.settings[pair.1]);
+        let clear = if overlap(pair) { "times overlap" } else { "" };
         format!(
             "<tr><td>{}</td>{}<td class=\"text\">{}</td>{}<td class=\"text\"><small>{clear}</small></td></tr>",
             escaped(&worse.setting.name),
@@ -80,7 +85,7 @@ pub(super) fn dominated(measurements: &Measurements) -> String {
             numbers(better)
         )
     };
-    let lines: String = measurements.dominated.iter().map(line).collect();
+    let lines: String = pairs.into_iter().map(line).collect();
     format!(
         "<section><h2>Settings not worth choosing here</h2><p class=\"quiet\">For each there is one that is no slower and no less \
          accurate. Where times overlap it is a matter of accuracy alone.</p><div class=\"scroll\"><table><thead><tr><th>Instead \

@@ -128,23 +128,34 @@ fn cells(displayed: &Displayed) -> [String; 4] {
     [decibels(psnr), format!("{ssim:.5}"), number(ciede2000), number(flip)]
 }
 
-/// A row for every setting that has one, by rising error.
+/// A row for every setting that has one, by rising error; of many settings those that are not on a front are folded up.
 fn table<C: AsRef<[String]>>(
     measurements: &Measurements,
     titles: &[&str],
     row: impl Fn(&Measured) -> Option<C>,
 ) -> String {
+    /// More settings than this are many.
+    const MANY: usize = 12;
     let titles: String = titles.iter().map(|title| format!("<th>{title}</th>")).collect();
-    let mut rows = String::new();
-    for i in by_error(measurements) {
-        let measured = &measurements.settings[i];
-        let Some(cells) = row(measured) else { continue };
-        let class = if measurements.front_time.contains(&i) { " class=\"front\"" } else { "" };
-        let _ = write!(rows, "<tr{class}><td>{}</td>{}</tr>", escaped(&measured.setting.name), tds(cells.as_ref()));
+    let table = |settings: &[usize]| {
+        let row = |&i: &usize| {
+            let measured = &measurements.settings[i];
+            let class = if measurements.front_time.contains(&i) { " class=\"front\"" } else { "" };
+            let cells = tds(row(measured)?.as_ref());
+            Some(format!("<tr{class}><td>{}</td>{cells}</tr>", escaped(&measured.setting.name)))
+        };
+        let rows: String = settings.iter().filter_map(row).collect();
+        format!(
+            "<div class=\"scroll\"><table><thead><tr><th>Setting</th>{titles}</tr></thead><tbody>{rows}</tbody></table></div>"
+        )
+    };
+    let all = by_error(measurements);
+    if all.len() <= MANY {
+        return table(&all);
     }
-    format!(
-        "<div class=\"scroll\"><table><thead><tr><th>Setting</th>{titles}</tr></thead><tbody>{rows}</tbody></table></div>"
-    )
+    let shown = |i: &usize| measurements.is_on_front(*i) || measurements.saved() == Some(*i);
+    let few: Vec<usize> = all.iter().copied().filter(shown).collect();
+    format!("{}<details><summary>All {} settings</summary>{}</details>", table(&few), all.len(), table(&all))
 }
 
 fn tds(cells: &[String]) -> String {

@@ -3,7 +3,7 @@
 use std::fs;
 
 use rayloom_measure::{MOST_SETTINGS, MeasureError, Measurements, Plan, Standard, measure, silent, write_all};
-use rayloom_network::Network;
+use rayloom_network::{Address, Network};
 use rayloom_reference::Cache;
 use serde_json::{Value as Json, json};
 
@@ -108,6 +108,31 @@ fn ladders_leave_out_the_own_setting_and_tell_departures_from_prices() {
     assert_eq!([departs("sampling trilinear"), departs("volume 8-bit")], [Some(false); 2]);
     let departing = |i: &usize| found.settings[*i].departs;
     assert!(!found.front_time.iter().any(departing) && !found.dominated.keys().any(departing));
+}
+
+#[test]
+fn precomputed_gradients_are_a_knob_where_there_are_any() {
+    let mut precomputed = network(&[
+        ("traversal.shading", json!("diffuse")),
+        ("traversal.gradient", json!("precomputed")),
+        // So fine that storage shows.
+        ("traversal.sampling_rate", json!(16)),
+    ]);
+    let [values, volume] =
+        ["source.volume", "traversal.volume"].map(|port| port.parse::<Address>().expect("an address"));
+    precomputed.disconnect(values.clone(), volume.clone());
+    precomputed.add("gradient_volume", "gradients").expect("a processor");
+    precomputed.connect(values, Address::new("gradients", "volume")).expect("a connection");
+    precomputed.connect(Address::new("gradients", "gradients"), volume).expect("a connection");
+    let plan = Plan { budget: true, ..plan(&[], &["gradients"]) };
+    let found = measured(&precomputed, &plan).expect("measurements");
+    let names: Vec<&str> = found.settings.iter().map(|one| one.setting.name.as_str()).collect();
+    assert_eq!((found.reference, &names[..]), ("exact", &["as saved", "gradients 16-bit", "gradients 8-bit"][..]));
+    let [saved, half, byte] = [0, 1, 2].map(|index| found.settings[index].all.errors.rmse);
+    assert!(saved < half && half < 1.5 * saved && byte > 4.0 * half, "{saved} {half} {byte}");
+    assert!(found.budget.expect("a budget").rows.iter().any(|row| row.cause == "storage of the gradients"));
+    let none = measured(&network(&[]), &plan).expect("measurements");
+    assert_eq!(none.settings.len(), 1);
 }
 
 #[test]
