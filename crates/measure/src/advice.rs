@@ -103,7 +103,7 @@ fn surface(measured: &Measured) -> Option<String> {
         more => format!("{more} silhouette pixels are wrong"),
     };
     Some(format!(
-        "The surface is off by {} voxels along the rays{normals} (RMS); {silhouette}, {} pixels show it.",
+        "Its surface is off by {} voxels along the rays{normals} (RMS); {silhouette}, {} pixels show it.",
         number(surface.distance.rmse),
         number(surface.common as f64)
     ))
@@ -113,7 +113,7 @@ fn surface(measured: &Measured) -> Option<String> {
 fn saved(measurements: &Measurements, front: &Front<'_>) -> Option<String> {
     let index = measurements.saved()?;
     if choice(measurements) == Some(index) {
-        return Some("That is how the network is saved.".into());
+        return Some("The network is saved that way.".into());
     }
     let seen = if front.settings[index].all.errors.p99 <= VISIBLE_ERROR {
         "errors that are not seen"

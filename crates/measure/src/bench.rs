@@ -109,7 +109,7 @@ impl Bench {
         self.network.set_from_json(&id, "target", &json!("32-bit"))?;
         self.network.set_from_json(&id, &format!("{slot}.text"), &json!(NORMAL))?;
         self.network.set_from_json(&id, &format!("{slot}.isovalue"), &isovalue.unwrap_or_default())?;
-        let port = Address::new(&id, &format!("image{number}"));
+        let port = Address::new(&id, format!("image{number}"));
         let found = self.bring(vec![port.clone()]).and_then(|_| self.read(&port));
         self.network = network;
         Ok(found?.pixels)

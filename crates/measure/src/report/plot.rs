@@ -12,7 +12,7 @@ const HEIGHT: f64 = 400.0;
 /// Room for the axes: left, top, right, bottom.
 const MARGIN: [f64; 4] = [64.0, 18.0, 22.0, 50.0];
 /// Estimated size of a letter of a label, pixels.
-const LETTER: [f64; 2] = [6.1, 13.0];
+const LETTER: [f64; 2] = [6.8, 13.0];
 
 /// What a plot shows.
 pub(super) struct Plot<'a> {
