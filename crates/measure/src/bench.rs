@@ -118,6 +118,11 @@ impl Bench {
     /// Milliseconds on the device for entry points and rays; everything else is ready before. `None` where it cannot be told.
     pub fn time(&mut self) -> Result<Option<f64>, MeasureError> {
         self.evaluate()?;
+        self.time_of_one()
+    }
+
+    /// The same, of the very next picture: for what has been rendered before in some size.
+    pub fn time_of_one(&mut self) -> Result<Option<f64>, MeasureError> {
         self.runner.measure(true);
         self.again(Level::Result);
         self.evaluator.invalidate(&self.chain.view, Level::Result, "measured again");
@@ -161,6 +166,14 @@ impl Bench {
             Some(Data::Image(picture)) => Ok(picture.read_back(&self.runner.context)?),
             _ => Err(MeasureError::Evaluation(format!("{image} holds no image."))),
         }
+    }
+}
+
+impl Drop for Bench {
+    /// A measurement that ends early may leave work behind, and drivers do not survive a program that ends under their work.
+    fn drop(&mut self) {
+        // Whatever is wrong with the device was told to whoever used it, and there is nobody left to tell.
+        let _ = self.runner.context.gpu.wait("measuring");
     }
 }
 

@@ -244,7 +244,7 @@ pub struct TuneArgs {
     #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..=64))]
     pub unseen: u16,
     /// Size of the pictures that errors are measured on, in pixels.
-    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size, default_value = "128x128")]
+    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size, default_value = "64x64")]
     pub size: [u32; 2],
     /// What to compare with: `exact` (float64, without samples) or `finest` (the device's own picture at its finest). Without
     /// it: exact where that can be drawn, else finest.

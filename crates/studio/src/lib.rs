@@ -27,6 +27,7 @@ mod screenshot;
 mod session;
 mod task;
 mod theme;
+mod tuning;
 mod views;
 mod visualization;
 mod welcome;

@@ -5,6 +5,7 @@ mod window;
 use egui::{PointerButton, Pos2, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use rayloom_network::Address;
 use rayloom_studio::{Pane, Studio};
 
 /// Marks a part of the picture, 12 x 8 points right of and below its middle.
@@ -66,4 +67,46 @@ fn the_error_is_estimated_once_the_picture_stands_still() {
     harness.step();
     window::wait_for(&mut harness, "traversal.samples");
     window::keep_picture(&mut harness, "estimate");
+}
+
+/// A small network with too few samples.
+const TINY: &str = r#"{"rayloom": 1, "processors": [
+    {"id": "source", "type": "volume_generator", "properties": {"field": "gaussian_blob", "dims": [12, 12, 12]}},
+    {"id": "proxy", "type": "cube_proxy"},
+    {"id": "view", "type": "entry_exit_points"},
+    {"id": "traversal", "type": "ray_traversal", "properties": {"sampling_rate": 0.25}},
+    {"id": "canvas", "type": "canvas"}],
+    "connections": ["source.volume -> proxy.volume", "proxy.geometry -> view.geometry", "source.volume -> traversal.volume",
+    "view.entry -> traversal.entry", "view.exit -> traversal.exit", "traversal.image -> canvas.image"]}"#;
+
+#[test]
+fn what_tuning_found_is_applied_in_one_step_and_kept_as_a_preset() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("tiny.json");
+    std::fs::write(&file, TINY).expect("a file");
+    let mut harness = window::studio(rayloom_studio::Options { network: Some(file), ..Default::default() });
+    harness.state_mut().session.to_open.push(Pane::Accuracy);
+    window::wait_for(&mut harness, "Tune for");
+    let text = |harness: &Harness<'_, Studio>| harness.state().session.network().to_text(None);
+    let before = text(&harness);
+    harness.get_by_label("Tune").click();
+    window::wait_for(&mut harness, "Cancel tuning");
+    harness.get_by_label("Cancel tuning").click();
+    window::wait_for(&mut harness, "Tune for");
+    assert!(harness.query_by_label("Apply").is_none(), "it was cancelled");
+    harness.get_by_label("Tune").click();
+    window::wait_for(&mut harness, "keeps the error within 0.01");
+    window::keep_picture(&mut harness, "tuning");
+    assert_eq!(text(&harness), before, "nothing changes until it is applied");
+    harness.get_by_label("Apply").click();
+    harness.run_steps(2);
+    let presets = harness.state().session.network().presets();
+    assert_eq!(presets[0].name, "Error at most 0.01");
+    let rate = Address::new("traversal", "sampling_rate");
+    let set = harness.state().session.network().value("traversal", "sampling_rate").expect("a value").to_json();
+    assert_eq!(Some(&set), presets[0].values.get(&rate));
+    assert!(presets[0].values.len() > 6 && text(&harness) != before, "{presets:?}");
+    harness.key_press_modifiers(egui::Modifiers::CTRL, egui::Key::Z);
+    harness.run_steps(2);
+    assert_eq!(text(&harness), before, "one step");
 }

@@ -177,7 +177,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Milliseconds a picture of `size` takes with each setting, taking turns over two views and some rounds; `None` where the
-    /// device does not tell.
+    /// device does not tell. The settings have been rendered before, so that nothing is made for the first time.
     pub fn times(
         &mut self,
         settings: &[&Setting],
@@ -191,7 +191,7 @@ impl<'a> Judge<'a> {
             for index in 0..self.goal.views.min(2) {
                 for (setting, timings) in settings.iter().zip(&mut timings) {
                     self.bench.set(setting, &view(&self.camera, index))?;
-                    timings.extend(self.bench.time()?);
+                    timings.extend(self.bench.time_of_one()?);
                 }
             }
         }

@@ -10,10 +10,17 @@ use crate::setting::{Assignment, Setting, plain};
 
 /// Samples per voxel, rung by rung: two rungs are a factor of two. Fewer than one sample in two voxels may miss what some views
 /// show and others do not, so that the error of one view says nothing about that of another.
-pub(super) const RATES: [f64; 19] =
-    [0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 48.0, 64.0, 96.0, 128.0, 192.0, 256.0];
+pub(super) const RATES: [f64; 23] = [
+    0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 48.0, 64.0, 96.0, 128.0, 192.0, 256.0, 384.0,
+    512.0, 768.0, 1024.0,
+];
 /// The rung of one sample a voxel.
 pub(super) const ONE: usize = 2;
+/// Rungs that a surface is given beyond the one that met the target. A ray misses a surface whose inside it crosses between two
+/// samples: near the outline of a ball of radius R, those are a share of `d^2 / 4 R^2` of its pixels with a step of `d`, and
+/// thin sheets lose a share of `d`. Views of a few hundred pixels cannot tell 0.1 % from 1 % of them, and a miss is as wrong
+/// as a pixel can be. Twice the samples leave half to a quarter of the misses.
+const BEYOND_SURFACES: usize = 2;
 /// Share of the allowed error that early termination may cause.
 const TERMINATION_SHARE: f64 = 0.25;
 
@@ -54,6 +61,25 @@ impl<'a> Knobs<'a> {
         ];
         let values = values.into_iter().filter_map(|(address, value)| Some((address?, value))).collect();
         self.at(&Candidate { rung: ONE, values }, ONE)
+    }
+
+    /// The lowest rung worth a look: a surface may hide between samples farther apart than voxels.
+    pub fn lowest(&self) -> usize {
+        if self.shows_surfaces() { ONE } else { 0 }
+    }
+
+    /// What a candidate that met the target needs so that views never seen can be trusted to meet it, too.
+    pub fn secured(&self, candidate: &Candidate, rungs: usize) -> Candidate {
+        match self.shows_surfaces() {
+            true => self.at(candidate, (candidate.rung + BEYOND_SURFACES).min(rungs - 1).max(candidate.rung)),
+            false => candidate.clone(),
+        }
+    }
+
+    /// Whether a ray ends, or changes at once, where it meets a surface.
+    fn shows_surfaces(&self) -> bool {
+        let compositing = self.text(&self.compositing());
+        compositing.starts_with("isosurface") || compositing.starts_with("first_hit")
     }
 
     /// The candidate with another sampling rate.

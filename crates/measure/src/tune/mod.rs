@@ -159,7 +159,7 @@ fn no_times() -> MeasureError {
 /// Milliseconds a picture takes.
 fn time(search: &mut Search<'_>, found: &Found) -> Result<f64, MeasureError> {
     let setting = search.knobs.setting(&found.candidate);
-    let time = search.judge.times(&[&setting], search.goal.picture, 2)?.remove(0);
+    let time = search.judge.times(&[&setting], search.goal.picture, 1)?.remove(0);
     time.map(|time| time.median).ok_or_else(no_times)
 }
 

@@ -1,5 +1,7 @@
 //! The way to a setting: the lowest sampling rate of each integrator, the cheapest of those, a look at views not used so far.
 
+use std::ops::Range;
+
 use super::judge::{FINEST_RATE, Judge, Share};
 use super::knobs::{Candidate, Knobs, ONE, RATES};
 use super::spread;
@@ -59,6 +61,7 @@ impl Search<'_> {
                 }
                 candidate = self.knobs.at(&candidate, candidate.rung + 1);
                 if self.meets(&candidate, allowed)? {
+                    candidate = self.knobs.secured(&candidate, self.rates());
                     break;
                 }
             }
@@ -72,20 +75,8 @@ impl Search<'_> {
         let mut best: Option<(f64, Candidate)> = None;
         let start = self.knobs.start(self.goal.max_error.unwrap_or(TIDY));
         for integrator in self.knobs.integrators(&start) {
-            let mut timed = true;
-            let too_slow = lowest(self.rates(), |rung| {
-                let setting = self.knobs.setting(&self.knobs.at(&integrator, rung));
-                if self.judge.errors(&setting, 0..1, f64::INFINITY, Share::Chosen)?.is_none() {
-                    return Ok(Answer::Stop);
-                }
-                let time = self.judge.times(&[&setting], self.goal.picture, 2)?.remove(0);
-                timed &= time.is_some();
-                Ok(if time.is_none_or(|time| time.median > budget) { Answer::Yes } else { Answer::No })
-            })?;
-            if !timed {
-                return Ok(None);
-            }
-            let candidate = self.knobs.at(&integrator, too_slow.unwrap_or(self.rates()).saturating_sub(1));
+            let Some(candidate) = self.finest_within(&integrator, budget)? else { continue };
+            let Timed::Took(candidate) = candidate else { return Ok(None) };
             if let Some(errors) = self.score(&candidate, f64::INFINITY)? {
                 let worst = largest(&errors);
                 if best.as_ref().is_none_or(|(least, _)| worst < *least) {
@@ -95,6 +86,46 @@ impl Search<'_> {
         }
         let Some((_, candidate)) = best else { return self.most_accurate(self.goal.max_error).map(Some) };
         self.look(candidate, self.goal.max_error).map(Some)
+    }
+
+    /// The highest sampling rate of an integrator whose pictures take no longer than `budget` milliseconds, the lowest of all if
+    /// none does; `None` if it cannot be rendered. Time grows with the samples at most, so that it is looked for where it must be.
+    fn finest_within(&mut self, integrator: &Candidate, budget: f64) -> Result<Option<Timed>, MeasureError> {
+        let top = self.rates() - 1;
+        let Some(first) = self.time_at(integrator, ONE)? else { return Ok(None) };
+        let Some(first) = first else { return Ok(Some(Timed::Untold)) };
+        // Two rungs are a factor of two.
+        let reach = ONE as f64 + 2.0 * (budget / first).log2().floor();
+        let mut rung = (reach.max(0.0) as usize).min(top);
+        let mut fits = |rung: usize| -> Result<bool, MeasureError> {
+            Ok(self.time_at(integrator, rung)?.flatten().is_some_and(|time| time <= budget))
+        };
+        match fits(rung)? {
+            true => {
+                while rung < top && fits(rung + 1)? {
+                    rung += 1;
+                }
+            }
+            false => {
+                while rung > 0 {
+                    rung -= 1;
+                    if fits(rung)? {
+                        break;
+                    }
+                }
+            }
+        }
+        Ok(Some(Timed::Took(self.knobs.at(integrator, rung))))
+    }
+
+    /// Milliseconds of a picture with the sampling rate of a rung, where they are told; `None` if it cannot be rendered.
+    fn time_at(&mut self, integrator: &Candidate, rung: usize) -> Result<Option<Option<f64>>, MeasureError> {
+        let setting = self.knobs.setting(&self.knobs.at(integrator, rung));
+        if self.judge.errors(&setting, 0..1, f64::INFINITY, Share::Chosen)?.is_none() {
+            return Ok(None);
+        }
+        let time = self.judge.times(&[&setting], self.goal.picture, 1)?.remove(0);
+        Ok(Some(time.map(|time| time.median)))
     }
 
     /// The errors of a setting on the views it was chosen by, and on new ones.
@@ -136,7 +167,7 @@ impl Search<'_> {
             let rungs = self.rates().min(least.unwrap_or(usize::MAX));
             // The error of the saved view, and how often doubling the rate has left it about the same.
             let mut floor = (f64::INFINITY, 0);
-            let rung = lowest(rungs, |rung| {
+            let rung = lowest(self.knobs.lowest()..rungs, |rung| {
                 let candidate = self.knobs.at(&integrator, rung);
                 let Some(errors) = self.score(&candidate, allowed)? else { return Ok(Answer::Stop) };
                 if self.meets(&candidate, allowed)? {
@@ -145,7 +176,8 @@ impl Search<'_> {
                 floor = (errors[0], if errors[0] > FLOOR * floor.0 { floor.1 + 1 } else { 0 });
                 Ok(if errors[0] > allowed && floor.1 >= 3 { Answer::Stop } else { Answer::No })
             })?;
-            found.extend(rung.map(|rung| self.knobs.at(&integrator, rung)));
+            let secured = |rung| self.knobs.secured(&self.knobs.at(&integrator, rung), self.rates());
+            found.extend(rung.map(secured));
         }
         Ok(found)
     }
@@ -206,6 +238,14 @@ impl Search<'_> {
     }
 }
 
+/// What the times of an integrator have shown.
+enum Timed {
+    /// A setting that keeps within them, or the fastest.
+    Took(Candidate),
+    /// The device does not tell.
+    Untold,
+}
+
 /// What early termination goes by where only time counts: one code of an 8-bit picture.
 const TIDY: f64 = 1.0 / 255.0;
 
@@ -221,26 +261,26 @@ enum Answer {
     Stop,
 }
 
-/// The lowest of `rungs` rungs that is high enough, if one is: all above one that is are taken to be so, too. Begins at one
-/// sample a voxel, goes by factors of two, and then tries the rung between.
+/// The lowest rung that is high enough, if one is: all above one that is are taken to be so, too. Begins at one sample a voxel,
+/// goes by factors of two, and then tries the rung between.
 fn lowest(
-    rungs: usize,
+    rungs: Range<usize>,
     mut holds: impl FnMut(usize) -> Result<Answer, MeasureError>,
 ) -> Result<Option<usize>, MeasureError> {
-    let mut rung = ONE.min(rungs.saturating_sub(1));
+    let mut rung = ONE.max(rungs.start).min(rungs.end.saturating_sub(1));
     match holds(rung)? {
         Answer::Yes => {
-            while rung >= 2 && matches!(holds(rung - 2)?, Answer::Yes) {
+            while rung >= rungs.start + 2 && matches!(holds(rung - 2)?, Answer::Yes) {
                 rung -= 2;
             }
         }
         Answer::Stop => return Ok(None),
         Answer::No => loop {
             rung += 2;
-            if rung >= rungs {
+            if rung >= rungs.end {
                 // The last rung of all, if the steps have left it out.
                 let last = rung - 1;
-                return Ok((last < rungs && matches!(holds(last)?, Answer::Yes)).then_some(last));
+                return Ok((last < rungs.end && matches!(holds(last)?, Answer::Yes)).then_some(last));
             }
             match holds(rung)? {
                 Answer::Yes => break,
@@ -249,11 +289,10 @@ fn lowest(
             }
         },
     }
-    let between = rung.checked_sub(1).filter(|_| rung > 0);
-    Ok(match between {
-        Some(between) if matches!(holds(between)?, Answer::Yes) => Some(between),
-        _ => Some(rung),
-    })
+    match rung > rungs.start && matches!(holds(rung - 1)?, Answer::Yes) {
+        true => Ok(Some(rung - 1)),
+        false => Ok(Some(rung)),
+    }
 }
 
 #[cfg(test)]
@@ -263,12 +302,13 @@ mod tests {
     #[test]
     fn the_lowest_rung_is_found() {
         for (rungs, threshold) in (1..20).flat_map(|rungs| (0..=rungs).map(move |threshold| (rungs, threshold))) {
-            let found = lowest(rungs, |rung| {
+            let found = lowest(0..rungs, |rung| {
                 assert!(rung < rungs);
                 Ok(if rung >= threshold { Answer::Yes } else { Answer::No })
             });
             assert_eq!(found.expect("no error"), (threshold < rungs).then_some(threshold), "{rungs} {threshold}");
         }
-        assert!(lowest(9, |_| Ok(Answer::Stop)).expect("no error").is_none());
+        assert_eq!(lowest(ONE..9, |_| Ok(Answer::Yes)).expect("no error"), Some(ONE));
+        assert!(lowest(0..9, |_| Ok(Answer::Stop)).expect("no error").is_none());
     }
 }

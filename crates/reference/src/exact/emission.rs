@@ -9,8 +9,8 @@ use crate::image::PixelResult;
 use crate::prepared::Passage;
 use rayloom_volume::{Knot, TransferFunction};
 
-/// Optical depth at which a ray ends: what is behind contributes less than 1e-27.
-const OPAQUE: f64 = 64.0;
+/// Optical depth at which a ray ends: from here on the opacity `1 - exp(-depth)` is 1 in float64.
+const OPAQUE: f64 = 37.5;
 
 /// A piece of a cell on which the transfer function is straight.
 #[derive(Debug, Clone, Copy)]

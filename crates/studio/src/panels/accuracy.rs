@@ -16,6 +16,7 @@ use crate::display::Look;
 use crate::inspect::image::paint;
 use crate::inspect::text::number;
 use crate::panels::Pane;
+use crate::panels::tuning::TuningControl;
 use crate::session::Session;
 use crate::task::Task;
 use crate::theme;
@@ -54,6 +55,7 @@ pub struct AccuracyPanel {
     shown: Shown,
     running: Option<(Topic, Task<Outcome>)>,
     compared: Option<Compared>,
+    tuning: TuningControl,
     /// Where the drag began that marks a part.
     from: Option<Pos2>,
 }
@@ -66,6 +68,7 @@ impl Default for AccuracyPanel {
             shown: Shown::default(),
             running: None,
             compared: None,
+            tuning: TuningControl::default(),
             from: None,
         }
     }
@@ -92,6 +95,7 @@ impl AccuracyPanel {
             let [width, height] = image.size();
             let whole = Rectangle { x: 0, y: 0, width, height };
             estimate(ui, session, &chain);
+            self.tuning.show(ui, session, &chain, image.size());
             let asked = self.bar(ui, whole);
             self.numbers(ui);
             let marked = self.picture(ui, session, &image);

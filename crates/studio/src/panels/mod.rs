@@ -13,6 +13,7 @@ mod processors;
 pub(crate) mod properties;
 mod ray_probe;
 mod shader_editor;
+mod tuning;
 
 use egui_tiles::{Linear, LinearDir, TileId, Tiles, Tree};
 use rayloom_network::Address;
