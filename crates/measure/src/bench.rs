@@ -142,6 +142,16 @@ impl Bench {
         Subject::of(&self.network, |port| self.evaluator.output(&port.processor, &port.item), &self.chain)
     }
 
+    /// Voxels along the longest ray that the volume can have.
+    pub fn longest_ray(&mut self) -> Result<f64, MeasureError> {
+        let port = self.chain.volume.clone();
+        self.bring(vec![port.clone()])?;
+        match self.evaluator.output(&port.processor, &port.item) {
+            Some(Data::Volume(data)) => Ok(data.volume.dims_f64().length()),
+            _ => Err(MeasureError::Evaluation(format!("{port} holds no volume."))),
+        }
+    }
+
     fn again(&mut self, level: Level) {
         self.evaluator.invalidate(self.chain.traversal(), level, "measured again");
     }

@@ -106,7 +106,7 @@ fn what_tuning_found_is_applied_in_one_step_and_kept_as_a_preset() {
     let set = harness.state().session.network().value("traversal", "sampling_rate").expect("a value").to_json();
     assert_eq!(Some(&set), presets[0].values.get(&rate));
     assert!(presets[0].values.len() > 6 && text(&harness) != before, "{presets:?}");
-    harness.key_press_modifiers(egui::Modifiers::CTRL, egui::Key::Z);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
     harness.run_steps(2);
     assert_eq!(text(&harness), before, "one step");
 }

@@ -15,8 +15,10 @@ use crate::chain::Chain;
 use crate::yardstick::{Standard, choose, finest};
 use crate::{Errors, MeasureError, Refusal, Setting, Summary};
 
-/// Sampling rate of the finest picture, for networks that the float64 reference cannot draw.
-pub(super) const FINEST_RATE: f64 = 64.0;
+/// Samples of the longest ray of the finest picture, for networks that the float64 reference cannot draw.
+const FINEST_SAMPLES: f64 = 8192.0;
+/// Its samples a voxel: small volumes have few voxels, and their pictures are as coarse as the steps.
+const FINEST_RATES: [f64; 2] = [64.0, 1024.0];
 
 /// Share of a picture that must show something for it to count as a view.
 const LEAST_SHOWN: f64 = 0.01;
@@ -81,6 +83,8 @@ pub(super) struct Judge<'a> {
     /// Why the exact picture is not what is compared with, if it is not.
     pub refusal: Option<Refusal>,
     finest: Setting,
+    /// Its samples a voxel.
+    pub finest_rate: f64,
     /// The views in use so far, and what they should show.
     references: Vec<(Camera, Vec<[f64; 4]>)>,
     /// How many views were looked at to find them.
@@ -98,7 +102,6 @@ impl<'a> Judge<'a> {
         cache: &'a Cache,
         progress: Progress<'a>,
     ) -> Result<Self, MeasureError> {
-        let finest = finest(network, &chain, FINEST_RATE);
         let mut bench = Bench::new(network, chain, gpu, goal.size)?;
         let camera = bench.camera()?;
         let (standard, refusal) = choose(goal.standard, &mut bench)?;
@@ -107,8 +110,27 @@ impl<'a> Judge<'a> {
                 "Tuning needs a reference that every setting is compared with: choose exact or finest.".into(),
             ));
         }
+        let [least, most] = FINEST_RATES;
+        let finest_rate = match standard {
+            Standard::Finest => (FINEST_SAMPLES / bench.longest_ray()?).clamp(least, most),
+            _ => most,
+        };
+        let finest = finest(network, &bench.chain, finest_rate);
         let (references, known) = (Vec::new(), BTreeMap::new());
-        Ok(Self { bench, goal, cache, progress, camera, standard, refusal, finest, references, looked: 0, known })
+        Ok(Self {
+            bench,
+            goal,
+            cache,
+            progress,
+            camera,
+            standard,
+            refusal,
+            finest,
+            finest_rate,
+            references,
+            looked: 0,
+            known,
+        })
     }
 
     /// The errors of a setting in some views, up to the first that is not `enough`; `None` if it cannot be rendered.

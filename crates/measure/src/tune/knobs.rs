@@ -92,7 +92,10 @@ impl<'a> Knobs<'a> {
     /// The candidate with each integrator that the network may have.
     pub fn integrators(&self, candidate: &Candidate) -> Vec<Candidate> {
         const INTEGRATORS: [&str; 3] = ["transfer_function", "preintegrated_full", "preintegrated_fast"];
-        let projects = ["mip", "minip", "mean", "sum", "isosurface"].contains(&self.text(&self.compositing()).as_str());
+        let compositing = self.text(&self.compositing());
+        // What has no thickness, or takes single values from the ray, has nothing to integrate.
+        let projects = ["mip", "minip", "mean", "sum", "isosurface", "isosurfaces"].contains(&compositing.as_str())
+            || compositing.starts_with("first_hit");
         if projects || !self.free("classification") || !INTEGRATORS.contains(&self.text("classification").as_str()) {
             return vec![candidate.clone()];
         }

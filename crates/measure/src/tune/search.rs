@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::judge::{FINEST_RATE, Judge, Share};
+use super::judge::{Judge, Share};
 use super::knobs::{Candidate, Knobs, ONE, RATES};
 use super::spread;
 use super::{Goal, Tried};
@@ -154,7 +154,7 @@ impl Search<'_> {
     /// Sampling rates that make sense: well below that of the finest picture where that is what is compared with.
     fn rates(&self) -> usize {
         match self.judge.standard {
-            Standard::Finest => RATES.iter().filter(|rate| **rate <= FINEST_RATE / 4.0).count(),
+            Standard::Finest => RATES.iter().filter(|rate| **rate <= self.judge.finest_rate / 4.0).count(),
             _ => RATES.len(),
         }
     }
