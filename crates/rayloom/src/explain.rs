@@ -6,6 +6,7 @@ use rayloom_processors::{Explanation, Role, Runner};
 use serde_json::{Value as Json, json};
 
 use crate::args::ExplainArgs;
+use crate::explain_settings::Settings;
 use crate::failure::Failure;
 use crate::network_file;
 use crate::problems;
@@ -38,7 +39,11 @@ pub fn run(args: &ExplainArgs) -> Result<String, Failure> {
 }
 
 fn json(network: &Network, report: &Report, adapter: &str) -> Json {
-    let run = |run: &Run| json!({"id": run.processor, "type": type_id(network, run), "explanations": Explanation::of(run), "notes": run.notes});
+    let run = |run: &Run| {
+        let settings = network.processor(&run.processor).map(|processor| Settings::of(network, processor).to_json());
+        json!({"id": run.processor, "type": type_id(network, run), "properties": settings,
+            "explanations": Explanation::of(run), "notes": run.notes})
+    };
     json!({
         "rayloom": env!("CARGO_PKG_VERSION"),
         "adapter": adapter,
@@ -51,6 +56,9 @@ fn text(network: &Network, report: &Report) -> String {
     let mut text = String::new();
     for run in &report.runs {
         text += &format!("{} ({})\n", run.processor, type_id(network, run));
+        if let Some(processor) = network.processor(&run.processor) {
+            text += &Settings::of(network, processor).to_text();
+        }
         let explanations = Explanation::of(run);
         if explanations.is_empty() {
             text += "  nothing of its own: it hands on what it is given\n";
