@@ -19,9 +19,10 @@ pub const OPACITY: f64 = 2e-6;
 /// Length of a ray that enters and leaves askew, in edges of the box: entry and exit are points of a ray through a scene a few
 /// boxes deep, so each coordinate is rounded a few times by 1.2e-7, and more shows where the ray grazes a face.
 pub const CHORD: f64 = 6e-7;
-/// T1 with opacity 1e-8 a sample: relative error after 6e4 samples. Each addition rounds to 2^-34 at worst while the sum is
-/// near 1e-3, which is 6e-3 of a sample but of either sign.
-pub const FAINT: f64 = 1e-4;
+/// T1, E34 with opacity 1e-8 a sample: relative error after 1e4 to 1e5 samples, or as many as the driver allows. Long rays add up
+/// faint samples on their own until they are a 64th of the whole, to which they are added 64 ln 1e5 = 740 times: 2e-5 off if each
+/// addition were rounded by 2^-25 and all to the same side, half of which is allowed.
+pub const FAINT: f64 = 1e-5;
 /// T2: two units in the last place of 1.
 pub const FURNACE: f64 = 2.4e-7;
 /// T3: emission and extinction are rounded on their own, in the table and at each of a few operations.
@@ -84,9 +85,6 @@ pub const UNITS: f64 = 1e-5;
 pub const WORLDS: f64 = 1e-5;
 /// E48: unit normals on stretched grids, where a voxel's difference is a hundredth of the value range.
 pub const STRETCHED_NORMAL: f64 = 1e-4;
-/// E34: relative error after 1e5 steps, or as many as the driver allows. An addition near 1e-3 rounds to 2^-34, 6e-3 of a step of
-/// 1e-8, and to the same side for equal steps: by up to 3e-3 in all if it were always the worst, a tenth of which is found.
-pub const FAINTEST: f64 = 3e-4;
 /// E41: opacity of a spike between entries of a pre-integrated table of 256, whose means are interpolated.
 pub const SPIKE: f64 = 1e-3;
 /// T14, T15: gradients, normalised values a voxel. The two values of a difference are rounded by 6e-8 each, and places by

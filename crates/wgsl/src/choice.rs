@@ -31,6 +31,8 @@ pub struct Choice {
     pub half_targets: bool,
     /// The volume has voxels without a value (NaN), which are not drawn.
     pub gaps: bool,
+    /// Rays take so many samples that sums of faint ones would lose places.
+    pub long_rays: bool,
     /// The channel that is classified, 0..=3.
     pub channel: u32,
     /// Channels of the volume, 1..=4.
@@ -73,6 +75,7 @@ impl Choice {
             statistics: false,
             sample_map: false,
             gaps: false,
+            long_rays: false,
             jitter: false,
             trace: false,
             half_targets: false,
@@ -306,6 +309,7 @@ impl<'a> Used<'a> {
         set("trace", choice.trace);
         set("half_targets", choice.half_targets);
         set("gaps", choice.gaps);
+        set("long_rays", choice.long_rays);
         set(&format!("channel_{}", choice.channel), true);
         set(&format!("channels_{}", choice.channels), true);
         for slot in self.snippets.keys() {

@@ -79,6 +79,7 @@ fn every_set_of_outputs_is_valid_with_every_switch() {
                         trace: switches == 4,
                         half_targets: switches & 2 != 0,
                         gaps: switches & 2 != 0,
+                        long_rays: switches == 2,
                         channel: switches % 4,
                         channels: switches % 4 + 1,
                     });

@@ -34,7 +34,7 @@ fn e34_e55_e68_faint_material_over_1e5_steps() {
         assert!((exact - 9.995_00e-4).abs() < 1e-9);
         let error = opacity(&picture) / exact - 1.0;
         println!("E34, shading {shading}: relative error {error:.2e}");
-        assert!(error.abs() <= FAINTEST, "{shading}: {error}");
+        assert!(error.abs() <= FAINT, "{shading}: {error}");
         let notes = bench.evaluator.last_run("traversal").map(|run| run.notes.join("\n")).unwrap_or_default();
         let limited = bench.runner.context.gpu.loop_rounds().is_some_and(|rounds| rounds < 100_000);
         assert_eq!(notes.contains("longer steps"), limited, "{notes}");

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use rayloom_network::{Job, ProcessError};
-use rayloom_volume::VolumeRole;
+use rayloom_volume::{Volume, VolumeRole};
 use rayloom_wgsl::{Choice, Library, MAX_OUTPUTS, Slot};
 
 use super::memory::Memory;
@@ -27,6 +27,10 @@ pub(super) struct Plan<'a> {
     /// Why there is skipping, or not.
     pub skipping_why: String,
 }
+
+/// Steps of a ray beyond which the rounding of sums of faint samples shows: 8192 additions of equal numbers are off by 8192 / 2^25,
+/// a sixteenth of a grey level in the worst case.
+const LONG: f64 = 8192.0;
 
 pub(super) fn plan<'a>(
     library: &Library,
@@ -62,6 +66,7 @@ pub(super) fn plan<'a>(
         trace: false,
         half_targets: job.properties.text("target")? == "16-bit",
         gaps: memory.gaps.of(volume, channel).is_some(),
+        long_rays: most_steps(volume, job)? > LONG,
         channel,
         channels: volume.channels,
     };
@@ -80,6 +85,11 @@ pub(super) fn plan<'a>(
     Ok(Plan { library, choice, channel, most_samples, skipping, skipping_why })
 }
 
+/// Steps of the longest ray: along the diagonal of the volume.
+pub(super) fn most_steps(volume: &Volume, job: &Job<'_, Data>) -> Result<f64, ProcessError> {
+    Ok(volume.dims_f64().length() * job.properties.f64("sampling_rate")?)
+}
+
 /// The samples a ray may take before the driver would stop it without a word; longer rays get longer steps, and a note.
 fn most_samples(
     context: &Context,
@@ -93,8 +103,7 @@ fn most_samples(
     let Some(rounds) = context.gpu.loop_rounds() else { return Ok(None) };
     // A visible sample found by the inner loop takes a round of the outer and two of the inner one: its own and its last check.
     let most = (rounds - SPARE) / if nested { 3 } else { 1 };
-    let longest = inputs.volume.volume.dims_f64().length() * job.properties.f64("sampling_rate")?;
-    if longest > f64::from(most) {
+    if most_steps(&inputs.volume.volume, job)? > f64::from(most) {
         notes.push(format!(
             "This device's driver ends loops after {rounds} rounds, so a ray takes at most {most} samples; longer rays take longer steps."
         ));

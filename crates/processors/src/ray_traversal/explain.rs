@@ -46,6 +46,7 @@ impl Pass<'_> {
         found.extend(self.pre_integration()?);
         let switches = [
             ("jitter", "jitter of the samples", "switched off"),
+            ("long_rays", "separate sums of faint samples", "no ray takes more than 8192 samples"),
             ("gaps", "map of voxels without a value", "every voxel has one"),
             ("statistics", "counting of samples", "nobody asked for it"),
         ];

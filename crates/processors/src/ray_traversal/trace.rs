@@ -10,6 +10,7 @@ use rayloom_volume::ValueRange;
 use rayloom_wgsl::{Choice, Library};
 
 use super::choose::Plan;
+use super::choose::most_steps;
 use super::dispatch::{Bound, Resource};
 use super::frame::{mean_spacing, reference_length};
 use super::memory::{Memory, shader};
@@ -119,7 +120,7 @@ impl LastRun {
         resources: Vec<(String, Resource)>,
     ) -> Result<Self, ProcessError> {
         let volume = &inputs.volume.volume;
-        let longest = volume.dims_f64().length() * job.properties.f64("sampling_rate")?;
+        let longest = most_steps(volume, job)?;
         Ok(Self {
             library: plan.library,
             choice: Choice { trace: true, statistics: false, sample_map: false, ..plan.choice },
