@@ -2,8 +2,6 @@
 
 mod window;
 
-use std::path::PathBuf;
-
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
@@ -116,27 +114,9 @@ fn a_text_among_exposed_properties_is_edited_without_the_network_in_sight() {
     assert_eq!(own_text(window.state()), "");
 }
 
-/// The folder of the user's snippets is named by the environment, so a test runs itself with one: here it ends with the folder's
-/// path in the run inside, and with nothing after that.
-fn snippet_folder(test: &str) -> Option<PathBuf> {
-    const FOLDER: &str = "RAYLOOM_SNIPPETS";
-    const INSIDE: &str = "RAYLOOM_SNIPPETS_OF_TEST";
-    if std::env::var_os(INSIDE).is_some() {
-        return std::env::var_os(FOLDER).map(PathBuf::from);
-    }
-    let folder = tempfile::tempdir().expect("a folder");
-    let program = std::env::current_exe().expect("a program");
-    let mut run = std::process::Command::new(program);
-    run.args([test, "--exact"]).envs([(FOLDER, folder.path().as_os_str()), (INSIDE, "1".as_ref())]);
-    let output = run.output().expect("it runs");
-    let said = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
-    assert!(output.status.success() && said[0].contains("1 passed"), "{}", said.concat());
-    None
-}
-
 #[test]
 fn a_text_is_kept_as_a_snippet_of_ones_own() {
-    let Some(folder) = snippet_folder("a_text_is_kept_as_a_snippet_of_ones_own") else { return };
+    let Some(folder) = window::alone_with_snippets("a_text_is_kept_as_a_snippet_of_ones_own") else { return };
     let mut window = opened();
     type_at_end(&mut window, "\n// warm");
     click(&mut window, "Save as...");
@@ -157,7 +137,7 @@ fn a_text_is_kept_as_a_snippet_of_ones_own() {
 
 #[test]
 fn a_snippet_that_changes_on_the_disk_is_read_again() {
-    let Some(folder) = snippet_folder("a_snippet_that_changes_on_the_disk_is_read_again") else { return };
+    let Some(folder) = window::alone_with_snippets("a_snippet_that_changes_on_the_disk_is_read_again") else { return };
     let write = |head: &str, factor: &str| {
         let text = format!(
             "//! slot: {head}\n//! label: Flat\n//! help: Evenly.\n//! param level: f32 = 0.5 [0, 1] -- how bright\n\n\

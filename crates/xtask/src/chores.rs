@@ -107,6 +107,13 @@ pub fn docs() -> Result<(), String> {
     Ok(())
 }
 
+/// Goes through the tutorial and renews its pictures.
+pub fn tutorial() -> Result<(), String> {
+    adapter::ensure(&build("dev")?)?;
+    let mut test = cargo(&["test", "--package", "rayloom", "--test", "cli", "tutorial"]);
+    run(test.env("RAYLOOM_UPDATE_TUTORIAL", "1"))
+}
+
 /// Runs the benches.
 pub fn bench() -> Result<(), String> {
     adapter::ensure(&build("release")?)?;

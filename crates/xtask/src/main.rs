@@ -15,6 +15,7 @@ Chores of the project: cargo xtask CHORE
   test      check formatting, lint, run all tests, build the documentation, open a window
   golden    render the golden images anew (look at the difference before you commit it)
   docs      write docs/processors and docs/snippets anew from the declarations
+  tutorial  go through docs/TUTORIAL.md in a window without a screen and renew its pictures
   window    open the flagship network in a window on an X server without a monitor, turn it, close it (part of test)
   bench     run the benches
 
@@ -29,6 +30,7 @@ fn main() -> ExitCode {
         ["test"] => chores::test(),
         ["golden"] => chores::golden(),
         ["docs"] => chores::docs(),
+        ["tutorial"] => chores::tutorial(),
         ["window"] => chores::window(),
         ["bench"] => chores::bench(),
         ["help" | "--help" | "-h"] => {

@@ -14,14 +14,14 @@ use crate::window::{keep_picture, studio, wait_until};
 /// Where the processors are put, as share of the canvas.
 const PLACES: [(f32, f32); 6] = [(0.15, 0.2), (0.15, 0.6), (0.42, 0.6), (0.55, 0.2), (0.8, 0.2), (0.82, 0.6)];
 
-fn click(window: &mut Window, role: Role, label: &str) {
+pub fn click(window: &mut Window, role: Role, label: &str) {
     window.get_by_role_and_label(role, label).scroll_to_me();
     window.run_steps(20);
     window.get_by_role_and_label(role, label).click();
     window.run_steps(4);
 }
 
-fn type_over(window: &mut Window, text: &str) {
+pub fn type_over(window: &mut Window, text: &str) {
     key(window, Modifiers::COMMAND, Key::A);
     window.event(Event::Text(text.to_owned()));
     window.run_steps(2);

@@ -8,5 +8,6 @@ mod listings;
 mod measuring;
 mod pictures;
 mod program;
+mod tutorial;
 #[path = "../../../studio/tests/window/mod.rs"]
 mod window;

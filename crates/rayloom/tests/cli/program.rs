@@ -18,7 +18,12 @@ pub fn root() -> PathBuf {
 /// Runs the program in the root folder, without a user's own snippets.
 pub fn rayloom<'a>(arguments: impl IntoIterator<Item = &'a str>) -> Ran {
     // Right in this folder there are no snippets, only in those below.
-    run(Command::new(env!("CARGO_BIN_EXE_rayloom")).args(arguments).env("RAYLOOM_SNIPPETS", "shaders"))
+    rayloom_with_snippets(Path::new("shaders"), arguments)
+}
+
+/// The same with the user's own snippets in a folder.
+pub fn rayloom_with_snippets<'a>(folder: &Path, arguments: impl IntoIterator<Item = &'a str>) -> Ran {
+    run(Command::new(env!("CARGO_BIN_EXE_rayloom")).args(arguments).env("RAYLOOM_SNIPPETS", folder))
 }
 
 /// The same where no driver can be found.

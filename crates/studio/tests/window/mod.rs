@@ -99,6 +99,24 @@ pub fn wait_until<T>(harness: &mut Harness<'_, T>, holds: impl Fn(&T) -> bool) {
     }
 }
 
+/// Runs a test in a program of its own with an empty folder of snippets: there its path is returned, here nothing once that run
+/// is over. (The folder is named by the environment.)
+pub fn alone_with_snippets(test: &str) -> Option<PathBuf> {
+    const FOLDER: &str = "RAYLOOM_SNIPPETS";
+    const INSIDE: &str = "RAYLOOM_SNIPPETS_OF_TEST";
+    if std::env::var_os(INSIDE).is_some() {
+        return std::env::var_os(FOLDER).map(PathBuf::from);
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let program = std::env::current_exe().expect("a program");
+    let mut run = std::process::Command::new(program);
+    run.args([test, "--exact"]).envs([(FOLDER, folder.path().as_os_str()), (INSIDE, "1".as_ref())]);
+    let output = run.output().expect("it runs");
+    let said = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
+    assert!(output.status.success() && said[0].contains("1 passed"), "{}", said.concat());
+    None
+}
+
 /// Drops a file from the desktop onto the window.
 pub fn drop_file<T>(harness: &mut Harness<'_, T>, path: &Path) {
     harness.input_mut().dropped_files.push(Arc::new(Dropped(path.to_owned())));
