@@ -170,9 +170,9 @@ impl Studio {
                     ui.label(format!("{id}: {} %", 100 * progress.done / progress.total.max(1)));
                 }
             } else if failed > 0 {
-                ui.colored_label(theme::ERROR, format!("{failed} failed"));
+                theme::colored(ui, theme::ERROR, format!("{failed} failed"));
             } else if !report.not_ready.is_empty() {
-                ui.colored_label(theme::WARNING, format!("{} not ready", report.not_ready.len()));
+                theme::colored(ui, theme::WARNING, format!("{} not ready", report.not_ready.len()));
             } else {
                 ui.label("ready");
             }
@@ -282,7 +282,7 @@ impl eframe::App for Studio {
             egui::Panel::bottom("status").show(ui, |ui| self.status_line(ui));
         }
         if self.complaints.is_lost() {
-            egui::Panel::top("lost").show(ui, |ui| ui.colored_label(theme::ERROR, format!("Error: {LOST}.")));
+            egui::Panel::top("lost").show(ui, |ui| theme::colored(ui, theme::ERROR, format!("Error: {LOST}.")));
         }
         self.files.bars(ui, &mut self.session);
         self.welcome.follow(&self.session, &context);

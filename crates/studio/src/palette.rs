@@ -152,7 +152,10 @@ impl Search {
                         row.scroll_to_me(None);
                     }
                     if chosen {
-                        ui.label(RichText::new(entry.help).small());
+                        // All of it is told by the tooltip.
+                        let first = entry.help.split_inclusive(". ").next().unwrap_or_default();
+                        let help = RichText::new(first.trim_end()).size(11.0).weak();
+                        ui.with_layout(Layout::top_down(Align::Min), |ui| ui.label(help));
                     }
                     if row.clicked() {
                         clicked = Some(index);

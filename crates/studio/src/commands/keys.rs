@@ -34,9 +34,10 @@ impl KeyList {
             .fixed_size([WIDTH, height])
             .show(context, |ui| {
                 ScrollArea::vertical().auto_shrink([false, true]).max_height(height).show(ui, |ui| {
-                    ui.columns(2, |columns| {
-                        commands(&mut columns[0]);
-                        gestures(&mut columns[1]);
+                    ui.horizontal_top(|ui| {
+                        ui.vertical(commands);
+                        ui.add_space(40.0);
+                        ui.vertical(gestures);
                     });
                 });
             });

@@ -63,7 +63,7 @@ pub(super) fn show(ui: &mut egui::Ui, session: &mut Session, outport: &Address, 
             ui.weak("counting...");
         }
         Some(Err(error)) => {
-            ui.colored_label(theme::ERROR, error.to_string());
+            theme::colored(ui, theme::ERROR, error.to_string());
         }
         Some(Ok(statistics)) => table(ui, image, statistics),
     }
@@ -143,9 +143,9 @@ pub(crate) fn table(ui: &mut egui::Ui, image: &Image, statistics: &Statistics) {
         }
     });
     if statistics.not_finite > 0 {
-        ui.colored_label(theme::ERROR, format!("{} pixels are NaN or infinite (magenta)", statistics.not_finite));
+        theme::colored(ui, theme::ERROR, format!("{} pixels are NaN or infinite (magenta)", statistics.not_finite));
     }
     if statistics.out_of_range > 0 {
-        ui.colored_label(theme::WARNING, format!("{} pixels have values outside of 0 to 1", statistics.out_of_range));
+        theme::colored(ui, theme::WARNING, format!("{} pixels have values outside of 0 to 1", statistics.out_of_range));
     }
 }

@@ -129,7 +129,7 @@ fn absence(ui: &mut egui::Ui, session: &Session, outport: &Address) {
     let id = &outport.processor;
     ui.set_max_width(320.0);
     if let Some(error) = report.failed.get(id) {
-        ui.colored_label(theme::ERROR, format!("{id} failed: {error}"));
+        theme::colored(ui, theme::ERROR, format!("{id} failed: {error}"));
         return;
     }
     let reasons = match (report.not_ready.get(id), readiness(session.network(), id)) {
@@ -138,7 +138,7 @@ fn absence(ui: &mut egui::Ui, session: &Session, outport: &Address) {
         (None, Readiness::Ready) => Vec::new(),
     };
     for reason in &reasons {
-        ui.colored_label(theme::WARNING, reason);
+        theme::colored(ui, theme::WARNING, reason);
     }
     if reasons.is_empty() {
         ui.horizontal(|ui| {

@@ -11,9 +11,13 @@ use super::text::{bytes, number};
 use crate::session::Session;
 use crate::theme;
 
-/// Longest side of a thumbnail, points.
-const SIDE: f32 = 92.0;
-/// Size of the histogram, points.
+/// Shortest and longest side of the square for a thumbnail, points.
+const SIDE: (f32, f32) = (72.0, 92.0);
+/// Space between thumbnails, points.
+const GAP: f32 = 6.0;
+/// Height of the line below a thumbnail, points.
+const NAME: f32 = 15.0;
+/// Largest size of the histogram, points.
 const HISTOGRAM: Vec2 = Vec2::new(386.0, 64.0);
 
 /// Thumbnails, facts and a histogram, compact.
@@ -28,17 +32,21 @@ pub(super) fn show(ui: &mut egui::Ui, session: &mut Session, data: &Arc<VolumeDa
         return;
     };
     device_facts(ui, data, &digest);
-    ui.horizontal_top(|ui| {
-        ui.spacing_mut().item_spacing = Vec2::splat(6.0);
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = Vec2::splat(GAP);
         let textures = textures(ui, &digest);
+        let side = (0.25 * (ui.available_width() - 3.0 * GAP)).floor().clamp(SIDE.0, SIDE.1);
+
         for (thumbnail, texture) in digest.thumbnails.iter().zip(textures) {
-            ui.vertical(|ui| {
-                let size = texture.size_vec2() * (SIDE / texture.size_vec2().max_elem());
-                let (area, _) = ui.allocate_exact_size(Vec2::splat(SIDE), Sense::hover());
-                let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
-                ui.painter().image(texture.id(), Rect::from_center_size(area.center(), size), whole, Color32::WHITE);
-                ui.small(thumbnail.name);
-            });
+            // In one piece, so that those without room go to the next line.
+            let (place, _) = ui.allocate_exact_size(Vec2::new(side, side + NAME), Sense::hover());
+            let area = place.with_max_y(place.bottom() - NAME);
+            let size = texture.size_vec2() * (side / texture.size_vec2().max_elem());
+            let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
+            ui.painter().image(texture.id(), Rect::from_center_size(area.center(), size), whole, Color32::WHITE);
+            let font = egui::TextStyle::Small.resolve(ui.style());
+            let color = ui.visuals().text_color();
+            ui.painter().text(place.center_bottom(), egui::Align2::CENTER_BOTTOM, thumbnail.name, font, color);
         }
     });
     histogram(ui, &digest.histogram);
@@ -75,16 +83,17 @@ fn device_facts(ui: &mut egui::Ui, data: &VolumeData, digest: &Digest) {
         if data.is_on_gpu() { "" } else { " (not there yet)" }
     }));
     if let Some(loss) = &digest.loss {
-        ui.colored_label(theme::WARNING, loss);
+        theme::colored(ui, theme::WARNING, loss);
     }
     if digest.non_finite > 0 {
-        ui.colored_label(theme::ERROR, format!("{} voxels are NaN or infinite", digest.non_finite));
+        theme::colored(ui, theme::ERROR, format!("{} voxels are NaN or infinite", digest.non_finite));
     }
 }
 
 /// Bars, logarithmic in the counts, and the ends of the range.
 fn histogram(ui: &mut egui::Ui, histogram: &Histogram) {
-    let (area, _) = ui.allocate_exact_size(HISTOGRAM, Sense::hover());
+    let size = HISTOGRAM.min(Vec2::new(ui.available_width(), HISTOGRAM.y));
+    let (area, _) = ui.allocate_exact_size(size, Sense::hover());
     let painter = ui.painter();
     painter.rect_filled(area, 3.0, ui.visuals().extreme_bg_color);
     let height = |count: u64| (count as f64).ln_1p() as f32;
@@ -101,7 +110,7 @@ fn histogram(ui: &mut egui::Ui, histogram: &Histogram) {
         );
     }
     ui.horizontal(|ui| {
-        ui.set_width(HISTOGRAM.x);
+        ui.set_width(size.x);
         ui.small(number(histogram.range.min));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.small(format!("{} (counts logarithmic)", number(histogram.range.max)));

@@ -173,7 +173,7 @@ impl AccuracyPanel {
         let (answer, _) = match answer {
             Ok(answer) => answer,
             Err(error) => {
-                ui.colored_label(theme::WARNING, error.to_string());
+                theme::colored(ui, theme::WARNING, error.to_string());
                 return;
             }
         };
@@ -288,7 +288,7 @@ fn estimate(ui: &mut egui::Ui, session: &mut Session, chain: &Chain) {
     ui.horizontal_wrapped(|ui| {
         match judgement {
             None => ui.weak("The error is estimated once the picture stands still."),
-            Some(Err(error)) => ui.colored_label(theme::WARNING, error),
+            Some(Err(error)) => theme::colored(ui, theme::WARNING, error),
             Some(Ok(judgement)) => {
                 let (rmse, p99) = (number(judgement.estimate.rmse), number(judgement.estimate.p99));
                 let order = judgement.estimate.order.map_or(String::new(), |order| format!(", order {order:.1}"));

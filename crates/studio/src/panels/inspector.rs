@@ -78,7 +78,7 @@ impl Inspectors {
             _ => {
                 egui::Frame::new().inner_margin(8).show(ui, |ui| {
                     inspect::heading(ui, session, outport);
-                    egui::ScrollArea::both().show(ui, |ui| inspect::show(ui, session, outport));
+                    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| inspect::show(ui, session, outport));
                 });
             }
         }
@@ -119,7 +119,6 @@ impl View {
                     self.choose_range(ui, numbers);
                 }
             }
-            self.choose_other(ui, session, outport, image);
             if ui.selectable_label(self.zoom == 1.0, "Fit").on_hover_text("Show all of the image.").clicked() {
                 (self.zoom, self.center) = (1.0, Vec2::splat(0.5));
             }
@@ -127,6 +126,7 @@ impl View {
                 "Blue: below the range; red: above it (0 to 1 for colours and coordinates); magenta: NaN or infinite.",
             );
             ui.toggle_value(&mut self.numbers, "Numbers").on_hover_text("Smallest, largest and mean values.");
+            self.choose_other(ui, session, outport, image);
         });
     }
 
@@ -299,7 +299,7 @@ impl View {
                 ui.weak("reading...");
             }
             Some(Err(error)) => {
-                ui.colored_label(theme::ERROR, error.to_string());
+                theme::colored(ui, theme::ERROR, error.to_string());
             }
             Some(Ok(reading)) => {
                 let values = channel_names(image.kind).into_iter().zip(reading.color);

@@ -5,14 +5,14 @@ use crate::theme;
 
 /// Shows the messages.
 pub fn show(ui: &mut egui::Ui, session: &mut Session) {
-    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        ui.add_space(4.0);
+    let margin = egui::Frame::new().inner_margin(egui::Margin::symmetric(8, 4));
+    let shown = |ui: &mut egui::Ui| {
         let report = &session.engine.results.report;
         for (id, error) in &report.failed {
-            ui.colored_label(theme::ERROR, format!("{id}: {error}"));
+            theme::colored(ui, theme::ERROR, format!("{id}: {error}"));
         }
         for reason in report.not_ready.values().flatten() {
-            ui.colored_label(theme::WARNING, reason);
+            theme::colored(ui, theme::WARNING, reason);
         }
         for (id, run) in &session.engine.results.runs {
             for note in &run.notes {
@@ -21,9 +21,10 @@ pub fn show(ui: &mut egui::Ui, session: &mut Session) {
         }
         for message in session.messages.iter().rev() {
             match message.severity {
-                Severity::Error => ui.colored_label(theme::ERROR, &message.text),
+                Severity::Error => theme::colored(ui, theme::ERROR, &message.text),
                 Severity::Note => ui.label(&message.text),
             };
         }
-    });
+    };
+    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| margin.show(ui, shown));
 }

@@ -102,13 +102,13 @@ impl Visualization {
         }
         ui.add_space(12.0);
         for problem in &self.problems {
-            ui.colored_label(theme::WARNING, problem);
+            theme::colored(ui, theme::WARNING, problem);
         }
         for (id, error) in &session.engine.results.report.failed {
-            ui.colored_label(theme::ERROR, format!("{id}: {error}"));
+            theme::colored(ui, theme::ERROR, format!("{id}: {error}"));
         }
         for reason in session.engine.results.report.not_ready.values().flatten() {
-            ui.colored_label(theme::WARNING, reason);
+            theme::colored(ui, theme::WARNING, reason);
         }
     }
 

@@ -36,7 +36,7 @@ pub fn show(ui: &mut Ui, network: &Network, application: &Application, changes: 
             match all.contains(&id.as_str()) {
                 true => tick(ui, network, id, true, changes),
                 false => {
-                    ui.colored_label(theme::WARNING, format!("there is no canvas `{id}` any more"));
+                    theme::colored(ui, theme::WARNING, format!("there is no canvas `{id}` any more"));
                     if mark(ui, "✖", &format!("Remove {id}")) {
                         changes.push(Change::ShowCanvas(id.clone(), false));
                     }

@@ -91,7 +91,7 @@ fn property(ui: &mut Ui, network: &Network, place: (usize, usize), exposed: &Exp
         ui.label(RichText::new(address.to_string()).weak().monospace().size(11.0));
         match &decl {
             Ok(decl) => range(ui, network, place, exposed, decl, changes),
-            Err(problem) => drop(ui.colored_label(theme::WARNING, problem)),
+            Err(problem) => drop(theme::colored(ui, theme::WARNING, problem)),
         }
     });
 }

@@ -73,7 +73,7 @@ impl ApplicationPanel {
             });
         });
         for problem in &self.unreadable {
-            ui.colored_label(theme::WARNING, problem).on_hover_text("The next change made here drops it.");
+            theme::colored(ui, theme::WARNING, problem).on_hover_text("The next change made here drops it.");
         }
         description(ui, network, done);
         canvases::show(ui, network, application, &mut done.changes);

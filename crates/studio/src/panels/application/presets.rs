@@ -41,7 +41,7 @@ pub fn show(
         });
         for (address, problem) in refused.get(index).into_iter().flatten() {
             ui.horizontal_wrapped(|ui| {
-                ui.colored_label(theme::WARNING, problem);
+                theme::colored(ui, theme::WARNING, problem);
                 if mark(ui, "✖", &format!("Take {address} out of {}", preset.name)) {
                     done.changes.push(Change::Forget(index, address.clone()));
                 }

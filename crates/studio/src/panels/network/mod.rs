@@ -24,6 +24,7 @@ use crate::catalog::NewProcessor;
 use crate::inspect;
 use crate::panels::Pane;
 use crate::session::Session;
+use crate::theme;
 use crate::wiring::End;
 pub use action::Action;
 use drag::{Drag, Target};
@@ -115,9 +116,10 @@ impl NetworkPanel {
         ui.visuals_mut().widgets.noninteractive.bg_fill = ui.visuals().extreme_bg_color;
         // The distance at which wires are touched, which the library takes on the canvas, is one in the window.
         ui.style_mut().interaction.interact_radius = (TOUCH / self.geometry.to_window.scaling).clamp(3.0, 30.0);
-        let graph = Graph::new("network").zoom_range(0.1..=3.0).dot_grid_step(24.0).selected_nodes(selected);
+        let graph = Graph::new("network").zoom_range(0.1..=3.0).dot_grid(false).selected_nodes(selected);
         let shown = graph.show(&mut self.view, ui, |ui, show| {
             scene.begin(ui);
+            scene.grid(ui);
             scene.welcome(ui);
             scene.frames(ui);
             show.nodes(ui, |context, ui| scene.nodes(context, ui)).edges(ui, |context, ui| scene.wires(context, ui));
@@ -276,7 +278,7 @@ impl NetworkPanel {
                 egui::PopupAnchor::Pointer,
             )
             .gap(14.0)
-            .show(|ui| ui.colored_label(crate::theme::ERROR, reason));
+            .show(|ui| theme::colored(ui, theme::ERROR, reason));
         }
         if !ui.input(|input| input.pointer.primary_released()) {
             return;

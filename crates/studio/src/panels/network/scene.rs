@@ -66,6 +66,9 @@ pub struct Scene<'a> {
     pub resting: Vec<(Response, Resting)>,
 }
 
+/// Smallest distance of the dots of the grid in the window, and their distance at zoom 1, both in points.
+const GRID: (f32, f32) = (16.0, 24.0);
+
 /// The library's id of a processor's node.
 pub fn node_id(processor: &str) -> NodeId {
     NodeId::new(processor)
@@ -101,6 +104,25 @@ impl<'a> Scene<'a> {
         ui.ctx().accesskit_node_builder(ui.unique_id(), |node| {
             node.set_transform(egui::accesskit::Affine::new([scale, 0.0, 0.0, scale, x, y]));
         });
+    }
+
+    /// Draws dots behind everything else, so that it is seen how the canvas moves. The library's own fade unevenly when small.
+    pub fn grid(&self, ui: &Ui) {
+        let transform = self.geometry.to_window;
+        let doublings = (GRID.0 / (GRID.1 * transform.scaling)).log2().ceil();
+        let step = GRID.1 * doublings.exp2();
+        let seen = transform.inverse() * self.geometry.area;
+        let color = ui.visuals().weak_text_color().gamma_multiply(0.35);
+        let pixel = 1.0 / ui.ctx().pixels_per_point();
+        let numbers = |range: egui::Rangef| (range.min / step).ceil() as i32..=(range.max / step).floor() as i32;
+        for row in numbers(seen.y_range()) {
+            for column in numbers(seen.x_range()) {
+                // On whole pixels of the window, or every dot would be blurred in its own way.
+                let at = transform * (step * Pos2::new(column as f32, row as f32));
+                let at = ((at / pixel).floor() + Vec2::splat(0.5)) * pixel;
+                ui.painter().circle_filled(transform.inverse() * at, 0.8 / transform.scaling, color);
+            }
+        }
     }
 
     /// Draws the frames, behind everything else.

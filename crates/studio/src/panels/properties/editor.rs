@@ -158,7 +158,7 @@ pub(super) fn show(
 /// Says what was wrong with what was typed last.
 pub(super) fn complaint(ui: &mut Ui, decl: &PropertyDecl, surroundings: &Surroundings<'_>) {
     if let Some(why) = surroundings.tools.complaints.get(&surroundings.address(decl)) {
-        ui.label(egui::RichText::new(why).size(11.5).color(theme::ERROR));
+        ui.label(egui::RichText::new(why).size(11.5).color(theme::ink(ui.visuals(), theme::ERROR)));
     }
 }
 

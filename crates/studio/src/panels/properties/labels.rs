@@ -46,7 +46,7 @@ pub(super) fn show(
             });
         }
     });
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         if ui.button("Add a label").clicked() {
             let number = table.labels.keys().next_back().map_or(1, |last| last.saturating_add(1));
             after

@@ -13,7 +13,7 @@ use crate::theme;
 /// A small button that opens the text of a slot in a pane.
 pub(super) fn toggle(ui: &mut Ui, decl: &PropertyDecl, width: f32, surroundings: &mut Surroundings<'_>) {
     let own = surroundings.properties.text(&decl.id).is_ok_and(|text| !text.trim().is_empty());
-    let color = if own { theme::WARNING } else { ui.visuals().weak_text_color() };
+    let color = if own { theme::ink(ui.visuals(), theme::WARNING) } else { ui.visuals().weak_text_color() };
     let button = egui::Button::new(RichText::new("{ }").monospace().size(10.5).color(color)).frame(false);
     let response = ui.add_sized([width, super::row::HEIGHT], button);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, &decl.label));
@@ -37,7 +37,7 @@ pub(super) fn show(ui: &mut Ui, decl: &PropertyDecl, own: &str, surroundings: &m
     let size = egui::Vec2::new(ui.available_width(), HEIGHT);
     ui.allocate_ui(size, |ui| code::show(ui, &decl.label, &mut text, &marked, &mut 1, None));
     for problem in &problems {
-        ui.label(RichText::new(problem.to_string()).size(11.5).color(theme::ERROR));
+        ui.label(RichText::new(problem.to_string()).size(11.5).color(theme::ink(ui.visuals(), theme::ERROR)));
     }
     let mut applied = None;
     ui.horizontal(|ui| {

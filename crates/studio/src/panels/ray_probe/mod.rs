@@ -44,7 +44,7 @@ impl RayProbePanel {
                     ui.spinner();
                 }
                 Some(Err(error)) => {
-                    ui.colored_label(theme::ERROR, error.to_string());
+                    theme::colored(ui, theme::ERROR, error.to_string());
                 }
                 Some(Ok(trace)) => {
                     summary(ui, trace);
@@ -122,6 +122,6 @@ fn summary(ui: &mut Ui, trace: &Trace) {
     ui.label(RichText::new(text).size(12.0).weak());
     if trace.truncated() > 0 {
         let text = format!("The last {} samples did not fit and are not shown.", trace.truncated());
-        ui.colored_label(theme::WARNING, text);
+        theme::colored(ui, theme::WARNING, text);
     }
 }

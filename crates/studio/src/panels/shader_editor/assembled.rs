@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use egui::{Color32, FontId, RichText, ScrollArea, Sense, Ui, Vec2};
+use egui::{Color32, FontId, ScrollArea, Sense, Ui, Vec2};
 use rayloom_wgsl::Assembled;
 
 use super::code::colored;
@@ -67,13 +67,19 @@ fn colors(assembled: &Assembled) -> BTreeMap<Arc<str>, Color32> {
 /// The files with their colours; the one being edited first and strong.
 fn legend(ui: &mut Ui, colors: &BTreeMap<Arc<str>, Color32>, path: &str) {
     ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing = Vec2::new(4.0, 1.0);
+        ui.spacing_mut().item_spacing = Vec2::new(2.0, 1.0);
+        ui.spacing_mut().interact_size.y = 0.0;
         let (own, others): (Vec<_>, Vec<_>) = colors.iter().partition(|(file, _)| &***file == path);
         for (file, color) in own.into_iter().chain(others) {
-            let (dot, _) = ui.allocate_exact_size(Vec2::splat(9.0), Sense::hover());
-            ui.painter().rect_filled(dot.shrink(1.0), 1.0, *color);
-            let text = RichText::new(&**file).size(10.0);
-            ui.label(if &**file == path { text.strong() } else { text.weak() });
+            let font = FontId::proportional(10.0);
+            let is_own = &**file == path;
+            let ink = if is_own { ui.visuals().strong_text_color() } else { ui.visuals().weak_text_color() };
+            let name = ui.painter().layout_no_wrap(file.to_string(), font, ink);
+            // Mark and name in one piece, so that a line never ends between them.
+            let (area, _) = ui.allocate_exact_size(name.size() + Vec2::new(18.0, 0.0), Sense::hover());
+            let dot = egui::Rect::from_center_size(area.left_center() + Vec2::new(4.0, 0.0), Vec2::splat(7.0));
+            ui.painter().rect_filled(dot, 1.0, *color);
+            ui.painter().galley(area.min + Vec2::new(11.0, 0.0), name, ink);
         }
     });
 }

@@ -196,7 +196,7 @@ impl Editor {
                 (true, false, true) => (place.path.as_str(), ui.visuals().weak_text_color()),
                 (true, false, false) => ("in use in this processor", theme::READY),
             };
-            ui.label(RichText::new(state).size(11.5).color(color));
+            ui.label(RichText::new(state).size(11.5).color(theme::ink(ui.visuals(), color)));
         });
     }
 
@@ -204,7 +204,7 @@ impl Editor {
     fn list(&mut self, ui: &mut Ui, place: &Place, problems: &[Problem]) {
         egui::ScrollArea::vertical().max_height(84.0).show(ui, |ui| {
             for problem in problems {
-                let text = RichText::new(problem.to_string()).size(11.5).color(theme::ERROR);
+                let text = RichText::new(problem.to_string()).size(11.5).color(theme::ink(ui.visuals(), theme::ERROR));
                 let label = egui::Label::new(text).sense(egui::Sense::click());
                 if ui.add(label).clicked() && problem.source == place.path {
                     self.jump = Some((problem.line.max(1), problem.column.max(1)));
