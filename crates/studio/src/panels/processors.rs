@@ -69,13 +69,13 @@ fn help(ui: &mut Ui, declaration: &Declaration) {
     for port in &declaration.inports {
         let color = port.accepts.first().map_or(ui.visuals().text_color(), |t| theme::port_color(*t));
         ui.horizontal(|ui| {
-            ui.colored_label(color, "in");
+            theme::colored(ui, color, "in");
             ui.label(&port.label);
         });
     }
     for port in &declaration.outports {
         ui.horizontal(|ui| {
-            ui.colored_label(theme::port_color(port.port_type), "out");
+            theme::colored(ui, theme::port_color(port.port_type), "out");
             ui.label(&port.label);
         });
     }
