@@ -59,6 +59,8 @@ ul{margin:0;padding-left:20px}li{margin:3px 0}
 .study svg{max-width:860px;margin:0 auto 12px}
 .maps.small{grid-template-columns:repeat(auto-fill,minmax(120px,1fr));margin-bottom:14px}
 summary{cursor:pointer;color:var(--best);font-weight:600;font-size:14px}
+td.view:first-child{text-align:right}
+table.dense th,table.dense td{padding:4px 6px;font-size:12px}
 tr.group td{border-top:1px solid var(--other)}
 td[rowspan]{vertical-align:top}
 .maps img{width:100%;border-radius:6px;display:block}

@@ -78,7 +78,7 @@ pub(super) fn by_view(measurements: &Measurements) -> Result<String, MeasureErro
     let rows: String = by_error(measurements).into_iter().map(|i| rows(measurements, i)).collect();
     Ok(format!(
         "<section><h2>View by view</h2><div class=\"maps small\">{figures}</div><details><summary>Every setting in every \
-         view</summary><div class=\"scroll\"><table><thead><tr><th>Setting</th><th>View</th><th>Time<br>median</th>\
+         view</summary><div class=\"scroll\"><table class=\"dense\"><thead><tr><th>Setting</th><th>View</th><th>Time<br>median</th>\
          <th>Samples</th><th>Error<br>RMS</th><th>99 %<br>of pixels</th><th>largest</th><th>Visibly<br>off</th><th>PSNR</th>\
          <th>SSIM</th><th>CIEDE2000</th><th>FLIP</th>{surface}</tr></thead><tbody>{rows}</tbody></table></div></details></section>"
     ))
@@ -109,7 +109,7 @@ fn rows(measurements: &Measurements, index: usize) -> String {
         };
         let class = if view == 0 { " class=\"group\"" } else { "" };
         let cells = [&numbers[..], &cells(&figures.displayed), &surface].concat();
-        format!("<tr{class}>{name}<td>{}</td>{}</tr>", view + 1, tds(&cells))
+        format!("<tr{class}>{name}<td class=\"view\">{}</td>{}</tr>", view + 1, tds(&cells))
     };
     measured.views.iter().enumerate().map(row).collect()
 }
