@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Duration;
 
 use egui_tiles::{Tree, UiResponse};
 use rayloom_network::Address;
@@ -22,6 +23,9 @@ use crate::session::{Mode, Session, Severity};
 use crate::theme;
 use crate::visualization::Application;
 use crate::welcome::{self, Welcome};
+
+/// How long the status line shows a message.
+const MESSAGE_SHOWN: Duration = Duration::from_secs(10);
 
 /// What to start with.
 #[derive(Clone, Debug, Default)]
@@ -189,8 +193,9 @@ impl Studio {
             }
             self.judgement(ui);
             if let Some(message) = self.session.messages.last()
-                && message.when.elapsed().as_secs() < 10
+                && let Some(rest) = MESSAGE_SHOWN.checked_sub(message.when.elapsed())
             {
+                ui.ctx().request_repaint_after(rest);
                 ui.separator();
                 ui.label(message.text.lines().next().unwrap_or_default());
             }

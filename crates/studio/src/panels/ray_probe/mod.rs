@@ -88,7 +88,13 @@ impl RayProbePanel {
         let sample = hovered.or(chosen);
         self.cursor = sample.map(|sample| trace.samples[sample].index);
         if let Some(sample) = sample.map(|sample| &trace.samples[sample]) {
-            session.probe.mark(Mark { value: sample.value, gradient: sample.gradient });
+            let mark = Mark { value: sample.value, gradient: sample.gradient };
+            let known = session.probe.ray.as_ref().and_then(|ray| session.probe.marker(&ray.processor));
+            if known != Some(mark) {
+                // Editors show it in the next frame.
+                ui.ctx().request_repaint();
+            }
+            session.probe.mark(mark);
             reading::show(ui, trace, sample);
         } else {
             ui.weak("Point into the plots to read a sample.");
