@@ -203,6 +203,7 @@ fn surfaces_are_compared_where_rays_meet_them() {
             && text("views.csv").contains(",normal_p99_degrees,")
     );
     assert!(text("report.html").contains("Where rays meet the surface"));
+    assert!(found.advice.contains("Its surface is off by "), "{}", found.advice);
 
     // Where nothing is lit there are no normals to be wrong.
     let unlit = measured(&isosurface("none"), &plan(&["traversal.refinement=none"], &[])).expect("measurements");
