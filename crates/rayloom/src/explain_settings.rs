@@ -69,7 +69,10 @@ impl Settings {
 /// A value in few words; `None` for long ones.
 fn short(value: &Json) -> Option<String> {
     let text = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
-    (text.len() <= SHORT).then_some(text)
+    match text.len() {
+        0 => Some("(nothing)".into()),
+        length => (length <= SHORT).then_some(text),
+    }
 }
 
 /// A list in lines.

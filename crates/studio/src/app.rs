@@ -273,7 +273,7 @@ impl eframe::App for Studio {
         self.session.begin_frame();
         self.files.begin_frame(&mut self.session, &context);
         if std::mem::take(&mut self.session.is_new) {
-            self.panels = Panels::default();
+            self.panels.forget();
         }
         for complaint in self.complaints.take() {
             self.session.tell(Severity::Error, format!("graphics: {complaint}"));

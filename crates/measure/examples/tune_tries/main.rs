@@ -26,7 +26,7 @@ use crate::random::Random;
 const JUDGED: usize = 5;
 const SIZE: [u32; 2] = [64, 64];
 /// Samples a voxel of the picture that judges what the float64 reference cannot draw.
-const FINE: f64 = 128.0;
+const FINE: f64 = 512.0;
 
 /// A view from anywhere, nearer or farther than the saved one.
 fn anywhere(random: &mut Random, saved: &Camera) -> Camera {

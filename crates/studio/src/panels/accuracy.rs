@@ -75,6 +75,11 @@ impl Default for AccuracyPanel {
 }
 
 impl AccuracyPanel {
+    /// The panel of another document.
+    pub(super) fn anew(self) -> Self {
+        Self { tuning: self.tuning.anew(), ..Self::default() }
+    }
+
     /// Shows the picture of a ray traversal; a part of it that is marked by dragging is compared with the reference.
     pub fn show(&mut self, ui: &mut egui::Ui, session: &mut Session) {
         self.listen(ui.ctx());

@@ -103,6 +103,12 @@ pub struct Panels {
 }
 
 impl Panels {
+    /// Forgets the last document.
+    pub(crate) fn forget(&mut self) {
+        let accuracy = std::mem::take(&mut self.accuracy).anew();
+        *self = Self { accuracy, ..Self::default() };
+    }
+
     /// Shows one panel.
     pub fn show(&mut self, pane: &Pane, ui: &mut egui::Ui, session: &mut Session) {
         match pane {

@@ -18,15 +18,26 @@ pub(super) struct TuningControl {
     wish: Wish,
     running: Option<(Address, Tuning)>,
     found: Option<(Address, Result<Box<Tuned>, MeasureError>)>,
+    /// What was cancelled because its document is gone. It ends with its next word, for which the window does not wait.
+    leaving: Vec<Tuning>,
 }
 
 impl Default for TuningControl {
     fn default() -> Self {
-        Self { wish: Wish::Error(0.01), running: None, found: None }
+        Self { wish: Wish::Error(0.01), running: None, found: None, leaving: Vec::new() }
     }
 }
 
 impl TuningControl {
+    /// The control of another document.
+    pub(super) fn anew(mut self) -> Self {
+        if let Some((_, tuning)) = self.running.take() {
+            tuning.task.cancel();
+            self.leaving.push(tuning);
+        }
+        Self { leaving: self.leaving, ..Self::default() }
+    }
+
     /// Shows the control for a ray traversal with a picture of `size` pixels.
     pub(super) fn show(&mut self, ui: &mut egui::Ui, session: &mut Session, chain: &Chain, size: [u32; 2]) {
         self.listen();
@@ -56,6 +67,7 @@ impl TuningControl {
 
     /// Takes in what was found in the background.
     fn listen(&mut self) {
+        self.leaving.retain_mut(|tuning| tuning.task.take().is_none() && tuning.task.is_running());
         let Some((image, tuning)) = &mut self.running else { return };
         if let Some(outcome) = tuning.task.take() {
             self.found = outcome.transpose().map(|found| (image.clone(), found));
