@@ -11,7 +11,7 @@ use super::outline::{Entry, IDLE};
 /// Height of a row.
 pub(super) const HEIGHT: f32 = 20.0;
 /// Share of the width that names take.
-const NAMES: f32 = 0.36;
+const NAMES: f32 = 0.38;
 /// Width kept for the mark that resets.
 const MARK: f32 = 16.0;
 /// Width of the button that opens a text.

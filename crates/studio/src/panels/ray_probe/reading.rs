@@ -48,7 +48,7 @@ fn color(ui: &mut Ui, name: &str, rgb: [f32; 3], opacity: f64, what: &str) {
         let (swatch, _) = ui.allocate_exact_size(Vec2::new(22.0, 12.0), Sense::hover());
         ui.painter().rect_filled(swatch, 2.0, screen(rgb, 1.0));
         let [r, g, b] = rgb.map(|c| format!("{c:.3}"));
-        let text = format!("{name:<11}{r}  {g}  {b}   opacity {}", number(opacity));
+        let text = format!("{name:<11}{r} {g} {b}  opacity {}", number(opacity));
         ui.label(RichText::new(text).monospace().size(11.5));
     })
     .response
