@@ -86,7 +86,7 @@ mod tests {
         let slow = bands(&mut pace, [256, 256], 3e-6);
         assert!(slow.len() > 8, "{slow:?}");
         bands(&mut pace, [256, 256], 0.0);
-        assert_eq!(bands(&mut pace, [256, 256], 0.0), [0..256]);
+        assert_eq!(bands(&mut pace, [256, 256], 0.0).len(), 1);
     }
 
     #[test]
