@@ -121,7 +121,13 @@ fn the_ray_probe_leaves_no_trace_in_other_shaders() {
             found
         };
         let lost: Vec<_> = text.lines().filter(|line| !found(line)).collect();
-        let expected = ["@compute @workgroup_size(8, 8)", "fn traverse(", "    textureStore(", "    textureStore("];
+        let expected = [
+            "@compute @workgroup_size(8, 8)",
+            "fn traverse(",
+            "    let id = ",
+            "    textureStore(",
+            "    textureStore(",
+        ];
         assert_eq!(lost.len(), expected.len(), "{lost:#?}");
         assert!(lost.iter().zip(expected).all(|(line, start)| line.starts_with(start)), "{lost:#?}");
     }

@@ -57,8 +57,8 @@ fn edited(path: &str, from: &str, to: &str) -> String {
 #[test]
 fn mistakes_are_shown_where_they_are() {
     insta::assert_snapshot!(edited("compositing/dvr.wgsl", "let color = (*state).color;", "let color = (*state).color"), @r#"
-    edited/compositing.wgsl:19:5: expected `;`, found "("
-      19 |     (*state).color = color + (1.0 - color.w) * absorb(s.medium, s.length);
+    edited/compositing.wgsl:32:5: expected `;`, found "("
+      32 |     (*state).color = color + (1.0 - color.w) * absorb(s.medium, s.length);
          |     ^
     "#);
     insta::assert_snapshot!(edited("shading/blinn_phong.wgsl", "params.diffuse * lambert", "params.diffuse * lamberd"), @r"

@@ -43,10 +43,10 @@ impl Pass<'_> {
         }
         found.push(self.skipping());
         found.extend(self.termination());
+        found.extend(self.faint_sums());
         found.extend(self.pre_integration()?);
         let switches = [
             ("jitter", "jitter of the samples", "switched off"),
-            ("long_rays", "separate sums of faint samples", "no ray takes more than 8192 samples"),
             ("gaps", "map of voxels without a value", "every voxel has one"),
             ("statistics", "counting of samples", "nobody asked for it"),
         ];
@@ -100,6 +100,16 @@ impl Pass<'_> {
             }
             None => Explanation::new(Role::LeftOut, "skipping structure", skipping_why.clone()),
         }
+    }
+
+    /// Sums of faint samples, where a compositing snippet keeps them.
+    fn faint_sums(&self) -> Option<Explanation> {
+        let Plan { library, choice, .. } = self.plan;
+        let keeps = |path| library.source(path).is_some_and(|source| source.text.contains("#if long_rays"));
+        choice.outputs.iter().flatten().any(|path| keeps(path)).then(|| match self.has("long_rays") {
+            true => Explanation::new(Role::Computed, "sums of faint samples", "rays may take more than 8192 samples"),
+            false => Explanation::new(Role::LeftOut, "sums of faint samples", "no ray takes more than 8192 samples"),
+        })
     }
 
     fn termination(&self) -> Vec<Explanation> {
