@@ -6,6 +6,7 @@
 #[path = "../tests/window/mod.rs"]
 mod window;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -88,6 +89,8 @@ fn drag(network: &str, painted: bool) {
     step(&mut window);
     press(&window, middle, true);
     let (mut pictures, mut evaluations, mut frames) = (vec![Instant::now()], Vec::new(), Vec::new());
+    let mut paintings = Vec::new();
+    let mut runs: BTreeMap<String, Vec<Duration>> = BTreeMap::new();
     let mut last = picture(&window.state().session);
     for number in 0..MOVES {
         let angle = number as f32 / MOVES as f32 * std::f32::consts::TAU;
@@ -96,13 +99,19 @@ fn drag(network: &str, painted: bool) {
         window.step();
         frames.push(start.elapsed());
         if painted {
+            let start = Instant::now();
             window.render().expect("painted");
+            paintings.push(start.elapsed());
         }
         std::thread::sleep(FRAME.saturating_sub(start.elapsed()));
         let now = picture(&window.state().session);
         if now.map(|(id, _)| id) != last.map(|(id, _)| id) {
             pictures.push(Instant::now());
-            evaluations.push(window.state().session.engine.results.report.elapsed);
+            let report = &window.state().session.engine.results.report;
+            evaluations.push(report.elapsed);
+            for run in &report.runs {
+                runs.entry(run.processor.clone()).or_default().push(run.cpu);
+            }
             last = now;
         }
     }
@@ -132,6 +141,16 @@ fn drag(network: &str, painted: bool) {
         ms(frames[frames.len() / 2]),
         ms(frames.last().copied().unwrap_or_default()),
     );
+    paintings.sort();
+    if let Some(longest) = paintings.last() {
+        println!("    painting and reading back {}, at most {}", ms(paintings[paintings.len() / 2]), ms(*longest));
+    }
+    let median = |mut times: Vec<Duration>| {
+        times.sort();
+        ms(times[times.len() / 2])
+    };
+    let runs: Vec<String> = runs.into_iter().map(|(id, times)| format!("{id} {}", median(times))).collect();
+    println!("    of an evaluation: {}", runs.join(", "));
 }
 
 /// The longest frame of everything that could hold the window up.
