@@ -45,9 +45,9 @@ pub struct Probe {
     pub ray: Option<Ray>,
     /// Where it was picked: a canvas, or the outport of an inspector.
     pub picked_in: String,
-    /// The sample under the cursor of the plots: set by them, for the next frame.
-    marker: Option<Mark>,
-    shown_marker: Option<Mark>,
+    /// The sample under the pointer and the processors whose transfer functions it falls into: set for the next frame.
+    marker: Option<(Mark, BTreeSet<String>)>,
+    shown_marker: Option<(Mark, BTreeSet<String>)>,
 }
 
 impl Probe {
@@ -56,14 +56,17 @@ impl Probe {
         self.shown_marker = self.marker.take();
     }
 
-    /// Marks a sample in editors of the transfer function, in the next frame.
-    pub fn mark(&mut self, sample: Mark) {
-        self.marker = Some(sample);
+    /// Marks a sample in the transfer functions of these processors, in the next frame; whether that shows anything new.
+    pub fn mark(&mut self, sample: Mark, processors: BTreeSet<String>) -> bool {
+        let marker = Some((sample, processors));
+        let is_new = marker != self.shown_marker;
+        self.marker = marker;
+        is_new
     }
 
     /// The sample to mark in the editors of a processor.
     pub fn marker(&self, processor: &str) -> Option<Mark> {
-        self.shown_marker.filter(|_| self.ray.as_ref().is_some_and(|ray| ray.processor == processor))
+        self.shown_marker.as_ref().filter(|(_, processors)| processors.contains(processor)).map(|(mark, _)| *mark)
     }
 
     /// Where to mark the ray in a picture: 0 to 1.

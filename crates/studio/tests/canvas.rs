@@ -7,7 +7,7 @@ use std::time::Duration;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, TouchPhase, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use rayloom_network::{Camera, Evaluator, Request, Value};
+use rayloom_network::{Address, Camera, Evaluator, Request, Value};
 use rayloom_processors::{Data, Image, Runner};
 use rayloom_studio::{Mode, Options, Pane, Studio};
 
@@ -320,4 +320,17 @@ fn the_wheel_goes_through_slices_and_a_click_places_the_crosshair_of_all() {
     assert_eq!(placed[2], scrolled[2]);
     assert!(placed[0] > 0.5 && placed[1] > 0.5 && placed[0] < 1.0 && placed[1] < 1.0, "{placed:?}");
     window::keep_picture(&mut window, "crosshair");
+
+    // The voxel under the pointer, where the crosshair is now, is marked in the transfer functions of the volume.
+    let session = &window.state().session;
+    let Some(Data::Volume(data)) = session.engine.results.outputs.get(&Address::new("source", "volume")) else {
+        panic!("no volume")
+    };
+    let voxel = [0, 1, 2].map(|axis| (placed[axis] * f64::from(data.volume.dims[axis])) as u32);
+    let value = data.volume.value(voxel, 0);
+    assert_ne!(value, data.volume.value([0; 3], 0), "the test looks at nothing");
+    assert_eq!(session.probe.marker("traversal").map(|mark| mark.value), Some(value));
+    window.hover_at(Pos2::ZERO);
+    window.run_steps(3);
+    assert_eq!(window.state().session.probe.marker("traversal"), None);
 }

@@ -1,12 +1,13 @@
 //! Slices in the user's hand: scrolling, and a crosshair that slices of the same volume share.
 
 use egui::{Color32, Key, PointerButton, Pos2, Rect, Stroke};
-use rayloom_network::{Network, Value};
+use rayloom_network::{Address, Network, Value};
 use rayloom_processors::Data;
 use rayloom_volume::Volume;
 
 use super::number;
 use crate::pointer::dragged_by;
+use crate::probe::Mark;
 use crate::session::Session;
 
 /// Scrolled points for a step to the next voxel: one notch of a wheel.
@@ -84,10 +85,8 @@ fn siblings(network: &Network, processor: &str) -> Vec<(String, usize)> {
 /// Moves a slice view and the crosshair as the user wants.
 pub(super) fn interact(ui: &egui::Ui, response: &egui::Response, shown: Rect, session: &mut Session, processor: &str) {
     let source = session.network().inputs(processor).next().map(|connection| connection.from.clone());
-    let Some(Data::Volume(data)) = source.and_then(|source| session.engine.results.outputs.get(&source).cloned())
-    else {
-        return;
-    };
+    let Some(source) = source else { return };
+    let Some(Data::Volume(data)) = session.engine.results.outputs.get(&source).cloned() else { return };
     let Some(slice) = Slice::of(session.network(), processor, &data.volume, shown) else { return };
     let siblings = siblings(session.network(), processor);
     let before = session.document.revision();
@@ -107,7 +106,36 @@ pub(super) fn interact(ui: &egui::Ui, response: &egui::Response, shown: Rect, se
         place(session, &slice, &siblings, pointer);
     }
     session.interacting |= session.document.revision() != before;
+    if let Some(pointer) = response.hover_pos()
+        && let Some(value) = value_at(session.network(), processor, &data.volume, &slice, pointer)
+    {
+        mark(ui, session, &source, value);
+    }
     crosshair(ui, shown, session.network(), &slice, &siblings);
+}
+
+/// The value of the voxel under the pointer, in the volume's unit; none outside of it and where it has none.
+fn value_at(network: &Network, processor: &str, volume: &Volume, slice: &Slice, pointer: Pos2) -> Option<f64> {
+    let mut place = [number(network, processor, "position")?; 3];
+    [place[slice.axes[1]], place[slice.axes[2]]] = slice.coordinates(pointer);
+    let mut voxel = [0; 3];
+    for ((index, place), voxels) in voxel.iter_mut().zip(place).zip(volume.dims) {
+        let inside = (0.0..=1.0).contains(&place);
+        *index = inside.then(|| ((place * f64::from(voxels)) as u32).min(voxels - 1))?;
+    }
+    let Value::Int(channel) = network.value(processor, "channel")? else { return None };
+    let channel = u32::try_from(channel).ok().filter(|channel| *channel < volume.channels)?;
+    Some(volume.value(voxel, channel)).filter(|value| value.is_finite())
+}
+
+/// Marks a value in every transfer function of the volume.
+fn mark(ui: &egui::Ui, session: &mut Session, source: &Address, value: f64) {
+    let network = session.network();
+    let fed = network.outputs(&source.processor).filter(|connection| connection.from == *source);
+    let fed = fed.map(|connection| connection.to.processor.clone()).collect();
+    if session.probe.mark(Mark { value, gradient: None }, fed) {
+        ui.ctx().request_repaint();
+    }
 }
 
 fn is_held(ui: &egui::Ui, response: &egui::Response) -> bool {

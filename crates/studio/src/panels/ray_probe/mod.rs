@@ -89,12 +89,11 @@ impl RayProbePanel {
         self.cursor = sample.map(|sample| trace.samples[sample].index);
         if let Some(sample) = sample.map(|sample| &trace.samples[sample]) {
             let mark = Mark { value: sample.value, gradient: sample.gradient };
-            let known = session.probe.ray.as_ref().and_then(|ray| session.probe.marker(&ray.processor));
-            if known != Some(mark) {
+            let traversal = session.probe.ray.as_ref().map(|ray| ray.processor.clone());
+            if session.probe.mark(mark, traversal.into_iter().collect()) {
                 // Editors show it in the next frame.
                 ui.ctx().request_repaint();
             }
-            session.probe.mark(mark);
             reading::show(ui, trace, sample);
         } else {
             ui.weak("Point into the plots to read a sample.");
