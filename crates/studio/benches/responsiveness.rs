@@ -157,11 +157,12 @@ fn drag(network: &str, painted: bool) {
 fn frames() {
     let folder = std::env::temp_dir().join(format!("rayloom-responsiveness-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");
-    let (brain, saved) = (window::project("networks/brain.json"), folder.join("saved.json"));
-    let chooser = Chooser::new(move |question| {
-        let file = if question.save_as.is_some() { saved.clone() } else { brain.clone() };
-        Box::pin(std::future::ready(Some(file)))
-    });
+    // A copy, because it is saved.
+    let text = std::fs::read_to_string(window::project("networks/brain.json")).expect("the flagship");
+    let data = window::project("data").canonicalize().expect("the data");
+    let brain = folder.join("brain.json");
+    std::fs::write(&brain, text.replace("../data", &data.display().to_string())).expect("a copy");
+    let chooser = Chooser::new(move |_| Box::pin(std::future::ready(Some(brain.clone()))));
     let mut window = window::studio(Options { chooser, ..Options::default() });
     settle(&mut window);
     let set = |window: &mut Window, property: &str, value: &str| {
