@@ -109,14 +109,15 @@ impl TuningControl {
         let tuned = match &self.found {
             Some((image, Ok(tuned))) if *image == chain.image => tuned,
             Some((image, Err(error))) if *image == chain.image => {
-                ui.colored_label(theme::WARNING, error.to_string());
+                theme::colored(ui, theme::WARNING, error.to_string());
                 return;
             }
             _ => return,
         };
         let reached = matches!(tuned.verdict, Verdict::Met | Verdict::InTime);
         let text = RichText::new(tuned.message());
-        ui.add(Label::new(if reached { text } else { text.color(theme::WARNING) }).wrap());
+        let warning = theme::ink(ui.visuals(), theme::WARNING);
+        ui.add(Label::new(if reached { text } else { text.color(warning) }).wrap());
         let mut done = false;
         ui.horizontal(|ui| {
             let name = &tuned.preset.name;
