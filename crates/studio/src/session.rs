@@ -87,6 +87,8 @@ pub struct Session {
     pub watched: BTreeSet<Address>,
     /// Set by a panel in a frame in which the user moves something that pictures follow: they get smaller for the while.
     pub interacting: bool,
+    /// Processors that were changed by the pointer or a key since the pictures were last at rest.
+    touched: BTreeSet<String>,
     /// Set by a panel in a frame in which what the user set in motion goes on by itself: it belongs to the same step of the
     /// history.
     pub coasting: bool,
@@ -119,6 +121,7 @@ impl Session {
             mode: Mode::default(),
             watched: BTreeSet::new(),
             interacting: false,
+            touched: BTreeSet::new(),
             coasting: false,
             quality: Quality::default(),
             shown: BTreeMap::new(),
@@ -156,12 +159,15 @@ impl Session {
     /// Sets a property; values set in one drag are one step of the history. What is refused becomes a message.
     pub fn set(&mut self, processor: &str, property: &str, value: Value) {
         let address = format!("{processor}.{property}");
+        let mut changed = Vec::new();
         let set = |network: &mut Network| -> Result<(), EditError> {
-            network.set_property(processor, property, value).map(|_| ())
+            changed = network.set_property(processor, property, value)?;
+            Ok(())
         };
         if let Err(error) = self.document.edit_merged(&format!("set {address}"), &address, set) {
             self.tell(Severity::Error, error.to_string());
         }
+        self.touched.extend(changed.into_iter().map(|address: Address| address.processor));
     }
 
     /// Shows another document in place of the one there is, and what is odd about it.
@@ -177,7 +183,10 @@ impl Session {
     /// To be called at the start of a frame: takes in what was computed, and forgets what the frame before looked at.
     pub fn begin_frame(&mut self) {
         if self.engine.listen() {
-            self.quality.learn(&self.engine.results.request, &self.engine.results.report, &self.shown);
+            self.quality.learn(&self.engine.results.request, &self.engine.results.report, &self.moving());
+        }
+        if self.quality.divisor() == 1 && !self.engine.is_busy() {
+            self.touched.clear();
         }
         self.interacting = false;
         self.coasted = std::mem::take(&mut self.coasting);
@@ -190,7 +199,8 @@ impl Session {
     /// To be called at the end of a frame: asks for what it looked at, and for another frame when pictures are to be refined.
     pub fn end_frame(&mut self, context: &egui::Context) {
         let released = context.input(|input| input.pointer.any_released());
-        if let Some(rest) = self.quality.notice(self.interacting, released, &self.shown, Instant::now()) {
+        let moving = self.moving();
+        if let Some(rest) = self.quality.notice(self.interacting, released, &moving, Instant::now()) {
             context.request_repaint_after(rest);
         }
         if (released || self.coasted) && !self.coasting {
@@ -203,10 +213,19 @@ impl Session {
         self.inspection.end_frame();
     }
 
+    /// The canvases in sight that show what is being changed, with their full sizes: all of them when that is not known.
+    fn moving(&self) -> BTreeMap<String, [u32; 2]> {
+        let shows = |canvas: &String| upstream(self.network(), canvas).iter().any(|id| self.touched.contains(*id));
+        let moving: BTreeMap<_, _> =
+            self.shown.iter().filter(|(canvas, _)| shows(canvas)).map(|(id, size)| (id.clone(), *size)).collect();
+        if moving.is_empty() { self.shown.clone() } else { moving }
+    }
+
     /// What this frame wants evaluated: the canvases in sight, each at its own size, and every sink that is no canvas. While
     /// no canvas is in sight all of them count, so that mistakes are still told.
     pub fn request(&self) -> Request {
-        let sizes = self.quality.sizes(&self.shown);
+        let mut sizes = self.shown.clone();
+        sizes.extend(self.quality.sizes(&self.moving()));
         let wanted = |sink: &Processor| sink.type_id() != CANVAS || self.shown.contains_key(sink.id());
         let sinks = match self.shown.is_empty() {
             true => Sinks::All,
@@ -216,4 +235,16 @@ impl Session {
         };
         Request { sinks, watch: self.watched.iter().cloned().collect(), size: None, sizes }
     }
+}
+
+/// A processor and all that feeds it.
+fn upstream<'a>(network: &'a Network, processor: &'a str) -> BTreeSet<&'a str> {
+    let mut found = BTreeSet::new();
+    let mut stack = vec![processor];
+    while let Some(id) = stack.pop() {
+        if found.insert(id) {
+            stack.extend(network.inputs(id).map(|connection| connection.from.processor.as_str()));
+        }
+    }
+    found
 }

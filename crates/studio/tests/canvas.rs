@@ -291,6 +291,28 @@ fn a_turning_camera_goes_on_only_with_inertia() {
 }
 
 #[test]
+fn what_does_not_move_keeps_its_resolution() {
+    let mut window = window::studio(Options {
+        network: Some(window::project("networks/apps/mri_viewer.json")),
+        mode: Mode::Visualization,
+        ..Options::default()
+    });
+    settle(&mut window);
+    let sizes = |window: &Window| {
+        let canvases = &window.state().session.engine.results.canvases;
+        ["canvas", "canvas_axial", "canvas_coronal"].map(|canvas| canvases[canvas].size())
+    };
+    let full = sizes(&window);
+    let middle = canvas(&window);
+    drag(&mut window, middle, &[Vec2::new(20.0, 5.0), Vec2::new(40.0, 10.0)]);
+    window::wait_until(&mut window, |studio| studio.session.engine.results.canvases["canvas"].size() != full[0]);
+    assert_eq!(sizes(&window)[1..], full[1..], "slices do not show the camera");
+    button(&mut window, middle, PointerButton::Primary, false);
+    settle(&mut window);
+    assert_eq!(sizes(&window), full);
+}
+
+#[test]
 fn the_wheel_goes_through_slices_and_a_click_places_the_crosshair_of_all() {
     let mut window = window::studio(Options {
         network: Some(window::project("networks/apps/mri_viewer.json")),

@@ -1,10 +1,10 @@
 //! E32 to E39, E53, E55, E68: opacities of every size over any number of steps.
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 use rayloom_reference::Camera;
 use rayloom_reference::closed_forms::{LinearRamp, homogeneous_opacity};
 use rayloom_tests::rays::{homogeneous, tabulated};
-use rayloom_tests::{Picture, Workbench, tolerances::*};
+use rayloom_tests::{Grid, Picture, Workbench, tolerances::*};
 use rayloom_volume::ValueRange;
 use serde_json::json;
 
@@ -39,6 +39,23 @@ fn e34_e55_e68_faint_material_over_1e5_steps() {
         let limited = bench.runner.context.gpu.loop_rounds().is_some_and(|rounds| rounds < 100_000);
         assert_eq!(notes.contains("longer steps"), limited, "{notes}");
     }
+}
+
+/// Surfaces are refined in loops of their own, which must not use up the rounds of the samples behind them.
+#[test]
+fn e55_many_refined_surfaces_end_no_ray() {
+    let file = Grid::of_index([512, 1, 1], DAffine3::IDENTITY, |[i, _, _]| f64::from(i % 2)).save();
+    let mut bench = Workbench::of_file(file.path());
+    bench.put("traversal.compositing", json!("isosurfaces")).put("traversal.shading", json!("none"));
+    bench.put("traversal.compositing.isovalue_a", json!(0.5)).put("traversal.compositing.opacity_a", json!(0.002));
+    bench.put("traversal.compositing.opacity_b", json!(0)).put("traversal.compositing.opacity_c", json!(0));
+    bench.put("traversal.refinement", json!("bisection")).put("traversal.refinement.halvings", json!(16));
+    bench.put("traversal.sampling_rate", json!(200)).put("traversal.termination_error", json!(0));
+    bench.look(&Camera::orthographic(DVec3::X * -9.0, DVec3::X * 250.0, 0.3));
+    let found = opacity(&bench.render([4, 4]));
+    let exact = 1.0 - (1.0 - 0.002_f64).powi(511);
+    println!("E55, 511 surfaces: {found:.6} for {exact:.6}");
+    assert!((found - exact).abs() <= OPACITY, "{found}, not {exact}");
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use rayloom_network::{Job, ProcessError};
 use rayloom_volume::{Volume, VolumeRole};
-use rayloom_wgsl::{Choice, Library, MAX_OUTPUTS, Slot};
+use rayloom_wgsl::{Choice, Features, Library, MAX_OUTPUTS, Slot, Termination};
 
 use super::memory::Memory;
 use super::skipping::{Question, WORTHWHILE};
@@ -81,7 +81,8 @@ pub(super) fn plan<'a>(
             volume.name
         )));
     }
-    let most_samples = most_samples(context, job, inputs, features.has("search"), notes)?;
+    let loops = Loops::of(&library, &choice, &features);
+    let most_samples = most_samples(context, job, inputs, &loops, notes)?;
     Ok(Plan { library, choice, channel, most_samples, skipping, skipping_why })
 }
 
@@ -90,19 +91,35 @@ pub(super) fn most_steps(volume: &Volume, job: &Job<'_, Data>) -> Result<f64, Pr
     Ok(volume.dims_f64().length() * job.properties.f64("sampling_rate")?)
 }
 
+/// What takes rounds besides a sample's own.
+struct Loops {
+    /// A loop in the loop looks for the next visible sample.
+    search: bool,
+    /// More than one surface of a ray is refined, each in a loop of its own.
+    refinements: bool,
+}
+
+impl Loops {
+    fn of(library: &Library, choice: &Choice, features: &Features) -> Self {
+        let declarations = choice.outputs.iter().flatten().filter_map(|path| library.declaration(path));
+        let goes_on = declarations.into_iter().any(|declaration| declaration.termination != Termination::Hit);
+        Self { search: features.has("search"), refinements: features.has("slot_refinement") && goes_on }
+    }
+}
+
 /// The samples a ray may take before the driver would stop it without a word; longer rays get longer steps, and a note.
 fn most_samples(
     context: &Context,
     job: &Job<'_, Data>,
     inputs: &Inputs<'_>,
-    nested: bool,
+    loops: &Loops,
     notes: &mut Vec<String>,
 ) -> Result<Option<u32>, ProcessError> {
-    /// Rounds left to the refinement of surfaces.
-    const SPARE: u32 = 256;
     let Some(rounds) = context.gpu.loop_rounds() else { return Ok(None) };
+    // Four rounds for each of four thousand surfaces: a ray meets three in a cell at most, and hardly ever one in each.
+    let spare = if loops.refinements { rounds / 4 } else { 256 };
     // A visible sample found by the inner loop takes a round of the outer and two of the inner one: its own and its last check.
-    let most = (rounds - SPARE) / if nested { 3 } else { 1 };
+    let most = (rounds - spare) / if loops.search { 3 } else { 1 };
     if most_steps(&inputs.volume.volume, job)? > f64::from(most) {
         notes.push(format!(
             "This device's driver ends loops after {rounds} rounds, so a ray takes at most {most} samples; longer rays take longer steps."
