@@ -46,7 +46,7 @@ fn e34_e55_e68_faint_material_over_1e5_steps() {
 fn e55_many_refined_surfaces_end_no_ray() {
     let file = Grid::of_index([512, 1, 1], DAffine3::IDENTITY, |[i, _, _]| f64::from(i % 2)).save();
     let mut bench = Workbench::of_file(file.path());
-    bench.put("traversal.compositing", json!("isosurfaces")).put("traversal.shading", json!("none"));
+    bench.put("traversal.compositing", json!("isosurfaces")).put("traversal.shading", json!("diffuse"));
     bench.put("traversal.compositing.isovalue_a", json!(0.5)).put("traversal.compositing.opacity_a", json!(0.002));
     bench.put("traversal.compositing.opacity_b", json!(0)).put("traversal.compositing.opacity_c", json!(0));
     bench.put("traversal.refinement", json!("bisection")).put("traversal.refinement.halvings", json!(16));

@@ -81,8 +81,8 @@ pub(super) fn plan<'a>(
             volume.name
         )));
     }
-    let loops = Loops::of(&library, &choice, &features);
-    let most_samples = most_samples(context, job, inputs, &loops, notes)?;
+    let most_samples =
+        most_samples(context, job, inputs, |rounds| Rounds::of(&library, &choice, &features, rounds), notes)?;
     Ok(Plan { library, choice, channel, most_samples, skipping, skipping_why })
 }
 
@@ -91,19 +91,32 @@ pub(super) fn most_steps(volume: &Volume, job: &Job<'_, Data>) -> Result<f64, Pr
     Ok(volume.dims_f64().length() * job.properties.f64("sampling_rate")?)
 }
 
-/// What takes rounds besides a sample's own.
-struct Loops {
-    /// A loop in the loop looks for the next visible sample.
-    search: bool,
-    /// More than one surface of a ray is refined, each in a loop of its own.
-    refinements: bool,
+/// Rounds of loops that rays take.
+struct Rounds {
+    /// For each sample.
+    a_sample: u32,
+    /// For all else.
+    spare: u32,
 }
 
-impl Loops {
-    fn of(library: &Library, choice: &Choice, features: &Features) -> Self {
-        let declarations = choice.outputs.iter().flatten().filter_map(|path| library.declaration(path));
-        let goes_on = declarations.into_iter().any(|declaration| declaration.termination != Termination::Hit);
-        Self { search: features.has("search"), refinements: features.has("slot_refinement") && goes_on }
+impl Rounds {
+    /// What a choice takes of `rounds`.
+    fn of(library: &Library, choice: &Choice, features: &Features, rounds: u32) -> Self {
+        /// Surfaces that a compositing snippet looks for at a sample, at most.
+        const SURFACES: u32 = 3;
+        // A visible sample found by the inner loop takes a round of the outer and two of the inner one: its own and its last check.
+        let own = if features.has("search") { 3 } else { 1 };
+        let refinement = choice.snippets.get(&Slot::Refinement).and_then(|path| library.source(path));
+        let loops = refinement
+            .is_some_and(|source| ["for (", "loop {", "while "].iter().any(|word| source.text.contains(word)));
+        let outputs = choice.outputs.iter().flatten().filter_map(|path| library.declaration(path));
+        let refined: Vec<_> =
+            outputs.filter(|output| loops && output.reads.iter().any(|read| read == "refinement")).collect();
+        // The loop in a branch not taken is entered, too, for a round without effect.
+        let a_sample = own + SURFACES * refined.len() as u32;
+        let many = refined.iter().any(|output| output.termination != Termination::Hit);
+        // Four rounds for each of four thousand surfaces: a ray meets three in a cell at most, and hardly ever one in each.
+        Self { a_sample, spare: if many { rounds / 4 } else { 256 } }
     }
 }
 
@@ -112,14 +125,12 @@ fn most_samples(
     context: &Context,
     job: &Job<'_, Data>,
     inputs: &Inputs<'_>,
-    loops: &Loops,
+    taken: impl Fn(u32) -> Rounds,
     notes: &mut Vec<String>,
 ) -> Result<Option<u32>, ProcessError> {
     let Some(rounds) = context.gpu.loop_rounds() else { return Ok(None) };
-    // Four rounds for each of four thousand surfaces: a ray meets three in a cell at most, and hardly ever one in each.
-    let spare = if loops.refinements { rounds / 4 } else { 256 };
-    // A visible sample found by the inner loop takes a round of the outer and two of the inner one: its own and its last check.
-    let most = (rounds - spare) / if loops.search { 3 } else { 1 };
+    let Rounds { a_sample, spare } = taken(rounds);
+    let most = (rounds - spare) / a_sample;
     if most_steps(&inputs.volume.volume, job)? > f64::from(most) {
         notes.push(format!(
             "This device's driver ends loops after {rounds} rounds, so a ray takes at most {most} samples; longer rays take longer steps."
