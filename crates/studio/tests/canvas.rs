@@ -26,6 +26,15 @@ fn quick() -> Window {
     window
 }
 
+/// An application of slices and a picture.
+fn mri_viewer() -> Window {
+    window::studio(Options {
+        network: Some(window::project("networks/apps/mri_viewer.json")),
+        mode: Mode::Visualization,
+        ..Options::default()
+    })
+}
+
 fn settle(window: &mut Window) {
     window::wait_until(window, |studio| {
         let engine = &studio.session.engine;
@@ -292,11 +301,7 @@ fn a_turning_camera_goes_on_only_with_inertia() {
 
 #[test]
 fn what_does_not_move_keeps_its_resolution() {
-    let mut window = window::studio(Options {
-        network: Some(window::project("networks/apps/mri_viewer.json")),
-        mode: Mode::Visualization,
-        ..Options::default()
-    });
+    let mut window = mri_viewer();
     settle(&mut window);
     let sizes = |window: &Window| {
         let canvases = &window.state().session.engine.results.canvases;
@@ -314,11 +319,7 @@ fn what_does_not_move_keeps_its_resolution() {
 
 #[test]
 fn the_wheel_goes_through_slices_and_a_click_places_the_crosshair_of_all() {
-    let mut window = window::studio(Options {
-        network: Some(window::project("networks/apps/mri_viewer.json")),
-        mode: Mode::Visualization,
-        ..Options::default()
-    });
+    let mut window = mri_viewer();
     let axial = "canvas_axial";
     window::wait_until(&mut window, |studio| studio.session.engine.results.canvases.contains_key(axial));
     let positions = |window: &Window| {

@@ -44,6 +44,7 @@ pub use diagnostic::{Diagnostic, Origin, SourceMap};
 pub use highlight::{Highlight, highlight};
 pub use interface::{Field, Interface, ParameterLayout};
 pub use library::{Library, Source, SourceKind};
+pub use rename::has_loops;
 pub use slot::{Prototype, Slot, contract};
 pub use validate::{Validated, validate};
 

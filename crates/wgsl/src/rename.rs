@@ -87,6 +87,11 @@ impl Renaming {
 /// What begins a loop in WGSL.
 const LOOP_WORDS: [&str; 3] = ["loop", "while", "for"];
 
+/// Whether a text has loops.
+pub fn has_loops(text: &str) -> bool {
+    !loops(&tokens(text)).is_empty()
+}
+
 /// The loops of a text: the word that begins each, and the brace that opens its body. In a damaged text a word may have no
 /// body: no brace belongs to two.
 pub(crate) fn loops<'a>(list: &[Token<'a>]) -> Vec<(Token<'a>, Token<'a>)> {

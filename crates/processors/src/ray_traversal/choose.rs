@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use rayloom_network::{Job, ProcessError};
-use rayloom_volume::{Volume, VolumeRole};
-use rayloom_wgsl::{Choice, Features, Library, MAX_OUTPUTS, Slot, Termination};
+use rayloom_volume::VolumeRole;
+use rayloom_wgsl::{Choice, Library, MAX_OUTPUTS, Slot};
 
+use super::long_rays;
 use super::memory::Memory;
 use super::skipping::{Question, WORTHWHILE};
 use super::snippets::PLACES;
@@ -28,10 +29,6 @@ pub(super) struct Plan<'a> {
     pub skipping_why: String,
 }
 
-/// Steps of a ray beyond which the rounding of sums of faint samples shows: 8192 additions of equal numbers are off by 8192 / 2^25,
-/// a sixteenth of a grey level in the worst case.
-const LONG: f64 = 8192.0;
-
 pub(super) fn plan<'a>(
     library: &Library,
     context: &Context,
@@ -43,6 +40,7 @@ pub(super) fn plan<'a>(
     let mut library = library.clone();
     let volume = &inputs.volume.volume;
     let channel = channel(job, inputs)?;
+    let steps = long_rays::most_steps(volume, job.properties)?;
     let mut snippets = BTreeMap::new();
     let mut outputs: [Option<Arc<str>>; MAX_OUTPUTS] = Default::default();
     // Samples are those that the first image takes where no other is wanted.
@@ -66,7 +64,7 @@ pub(super) fn plan<'a>(
         trace: false,
         half_targets: job.properties.text("target")? == "16-bit",
         gaps: memory.gaps.of(volume, channel).is_some(),
-        long_rays: most_steps(volume, job)? > LONG,
+        long_rays: steps > long_rays::LONG,
         channel,
         channels: volume.channels,
     };
@@ -81,62 +79,14 @@ pub(super) fn plan<'a>(
             volume.name
         )));
     }
-    let most_samples =
-        most_samples(context, job, inputs, |rounds| Rounds::of(&library, &choice, &features, rounds), notes)?;
-    Ok(Plan { library, choice, channel, most_samples, skipping, skipping_why })
-}
-
-/// Steps of the longest ray: along the diagonal of the volume.
-pub(super) fn most_steps(volume: &Volume, job: &Job<'_, Data>) -> Result<f64, ProcessError> {
-    Ok(volume.dims_f64().length() * job.properties.f64("sampling_rate")?)
-}
-
-/// Rounds of loops that rays take.
-struct Rounds {
-    /// For each sample.
-    a_sample: u32,
-    /// For all else.
-    spare: u32,
-}
-
-impl Rounds {
-    /// What a choice takes of `rounds`.
-    fn of(library: &Library, choice: &Choice, features: &Features, rounds: u32) -> Self {
-        /// Surfaces that a compositing snippet looks for at a sample, at most.
-        const SURFACES: u32 = 3;
-        // A visible sample found by the inner loop takes a round of the outer and two of the inner one: its own and its last check.
-        let own = if features.has("search") { 3 } else { 1 };
-        let refinement = choice.snippets.get(&Slot::Refinement).and_then(|path| library.source(path));
-        let loops = refinement
-            .is_some_and(|source| ["for (", "loop {", "while "].iter().any(|word| source.text.contains(word)));
-        let outputs = choice.outputs.iter().flatten().filter_map(|path| library.declaration(path));
-        let refined: Vec<_> =
-            outputs.filter(|output| loops && output.reads.iter().any(|read| read == "refinement")).collect();
-        // The loop in a branch not taken is entered, too, for a round without effect.
-        let a_sample = own + SURFACES * refined.len() as u32;
-        let many = refined.iter().any(|output| output.termination != Termination::Hit);
-        // Four rounds for each of four thousand surfaces: a ray meets three in a cell at most, and hardly ever one in each.
-        Self { a_sample, spare: if many { rounds / 4 } else { 256 } }
-    }
-}
-
-/// The samples a ray may take before the driver would stop it without a word; longer rays get longer steps, and a note.
-fn most_samples(
-    context: &Context,
-    job: &Job<'_, Data>,
-    inputs: &Inputs<'_>,
-    taken: impl Fn(u32) -> Rounds,
-    notes: &mut Vec<String>,
-) -> Result<Option<u32>, ProcessError> {
-    let Some(rounds) = context.gpu.loop_rounds() else { return Ok(None) };
-    let Rounds { a_sample, spare } = taken(rounds);
-    let most = (rounds - spare) / a_sample;
-    if most_steps(&inputs.volume.volume, job)? > f64::from(most) {
+    let rounds = context.gpu.loop_rounds();
+    let most_samples = rounds.map(|rounds| long_rays::most_samples(rounds, &library, &choice, &features));
+    if let Some(most) = most_samples.filter(|most| steps > f64::from(*most)) {
         notes.push(format!(
-            "This device's driver ends loops after {rounds} rounds, so a ray takes at most {most} samples; longer rays take longer steps."
+            "This device's driver ends long loops, so a ray takes at most {most} samples; longer rays take longer steps."
         ));
     }
-    Ok(Some(most))
+    Ok(Plan { library, choice, channel, most_samples, skipping, skipping_why })
 }
 
 /// The channel to classify: that of the property, or the value beside a gradient.

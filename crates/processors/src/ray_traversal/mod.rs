@@ -8,6 +8,7 @@ mod explain;
 mod frame;
 mod gaps;
 mod idle;
+mod long_rays;
 mod memo;
 mod memory;
 mod parameters;

@@ -10,9 +10,9 @@ use rayloom_volume::ValueRange;
 use rayloom_wgsl::{Choice, Library};
 
 use super::choose::Plan;
-use super::choose::most_steps;
 use super::dispatch::{Bound, Resource};
 use super::frame::{mean_spacing, reference_length};
+use super::long_rays::most_steps;
 use super::memory::{Memory, shader};
 use super::{Inputs, OUTPORTS};
 use crate::Data;
@@ -120,7 +120,7 @@ impl LastRun {
         resources: Vec<(String, Resource)>,
     ) -> Result<Self, ProcessError> {
         let volume = &inputs.volume.volume;
-        let longest = most_steps(volume, job)?;
+        let longest = most_steps(volume, job.properties)?;
         Ok(Self {
             library: plan.library,
             choice: Choice { trace: true, statistics: false, sample_map: false, ..plan.choice },
