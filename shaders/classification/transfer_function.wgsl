@@ -4,8 +4,8 @@
 //! reads: transfer_function
 //! visible: transfer_function
 
-#include "classification/table.wgsl"
+#include "classification/transfer_table.wgsl"
 
 fn classify(s: Sample) -> vec4f {
-    return table_lookup(transfer_table, 0, s.value);
+    return transfer_lookup(s.value);
 }

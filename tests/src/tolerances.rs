@@ -38,9 +38,10 @@ pub const SECOND_ORDER: std::ops::RangeInclusive<f64> = 1.9..=2.1;
 pub const ORDER_ABOVE: f64 = 5e-6;
 /// T8, T11: mean observed order where single errors are irregular.
 pub const FIRST_ORDER: std::ops::RangeInclusive<f64> = 0.8..=1.2;
-/// T8: cells of a transfer function's table a value range: within one, a step is a ramp.
-pub const STEP_TABLE: f64 = 8184.0;
-/// The same for pre-integrated tables, along either value.
+/// T8: how far a step of a transfer function may lie from its place, as a share of the value range: what a table cut at its steps
+/// leaves to rounding, and the rounding of values in f32.
+pub const STEP_PLACE: f64 = 1e-6;
+/// Cells of pre-integrated tables along either value: within one, a step is a ramp.
 pub const STEP_TABLE_2D: f64 = 255.0;
 /// T8 with pre-integration, segments ending on table entries: rounding in the table and of up to 255 samples.
 pub const STEP_PREINTEGRATED: f64 = 2e-6;

@@ -56,19 +56,33 @@ impl Bench {
 
     /// The picture with its surface, and what was counted and noted on the way.
     pub fn shot(&mut self) -> Result<(Shot, Vec<String>), MeasureError> {
-        self.runner.count_samples(true);
-        self.again(Level::Shader);
-        let report = self.evaluate();
-        self.runner.count_samples(false);
-        self.again(Level::Shader);
-        let report = report?;
-        let run = report.runs.iter().find(|run| run.processor == self.chain.traversal());
-        let count = |key| run.and_then(|run| run.statistics.get(key)?.as_u64()).unwrap_or_default();
+        let report = self.counted()?;
+        let count = |key| self.count(&report, key);
         let counts = Counts { rays: count("rays"), samples: count("samples"), contributing: count("contributing") };
         let notes = report.runs.iter().flat_map(|run| run.notes.clone()).collect();
         let picture = self.read(&self.chain.image)?;
         let surface = self.surface(&picture)?;
         Ok((Shot { pixels: picture.pixels, surface, counts }, notes))
+    }
+
+    /// How many samples one ray may take, by the network and by the device: longer ones take longer steps.
+    pub fn most_samples(&mut self) -> Result<u64, MeasureError> {
+        let report = self.counted()?;
+        Ok(self.count(&report, "most_samples"))
+    }
+
+    fn counted(&mut self) -> Result<Report, MeasureError> {
+        self.runner.count_samples(true);
+        self.again(Level::Shader);
+        let report = self.evaluate();
+        self.runner.count_samples(false);
+        self.again(Level::Shader);
+        report
+    }
+
+    fn count(&self, report: &Report, key: &str) -> u64 {
+        let run = report.runs.iter().find(|run| run.processor == self.chain.traversal());
+        run.and_then(|run| run.statistics.get(key)?.as_u64()).unwrap_or_default()
     }
 
     /// The picture with its surface.

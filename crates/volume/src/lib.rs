@@ -31,7 +31,7 @@ pub use histogram::{Histogram, Histogram2D, histogram, histogram_2d};
 pub use range::{ValueRange, fraction};
 pub use read::{Format, Progress, ReadError, format_of, formats, read};
 pub use transfer::{
-    Knot, Label, LabelTable, MAX_EXTINCTION, Medium, Primitive, Rgba, RightSide, Shape, TransferFunction,
+    Knot, Label, LabelTable, MAX_EXTINCTION, Medium, Primitive, Rgba, RightSide, Shape, SplitTable, TransferFunction,
     TransferFunction2D, TransferFunctionError, extinction, table_interval,
 };
 pub use volume::{Volume, VolumeError, VolumeRole};

@@ -33,6 +33,8 @@ pub struct Choice {
     pub gaps: bool,
     /// Rays take so many samples that sums of faint ones would lose places.
     pub long_rays: bool,
+    /// The table of the transfer function is cut at its steps.
+    pub steps: bool,
     /// The channel that is classified, 0..=3.
     pub channel: u32,
     /// Channels of the volume, 1..=4.
@@ -76,6 +78,7 @@ impl Choice {
             sample_map: false,
             gaps: false,
             long_rays: false,
+            steps: false,
             jitter: false,
             trace: false,
             half_targets: false,
@@ -310,6 +313,7 @@ impl<'a> Used<'a> {
         set("half_targets", choice.half_targets);
         set("gaps", choice.gaps);
         set("long_rays", choice.long_rays);
+        set("steps", choice.steps);
         set(&format!("channel_{}", choice.channel), true);
         set(&format!("channels_{}", choice.channels), true);
         for slot in self.snippets.keys() {

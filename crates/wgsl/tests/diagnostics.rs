@@ -72,8 +72,8 @@ fn mistakes_are_shown_where_they_are() {
         |            ^
     ");
     insta::assert_snapshot!(edited("classification/transfer_function.wgsl", "s.value);", "s.value).x;"), @r"
-    edited/classification.wgsl:10:12: Function [15] 'classify' is invalid: The `return` expression Some([5]) does not match the declared return type Some([1])
-      10 |     return table_lookup(transfer_table, 0, s.value).x;
+    edited/classification.wgsl:10:12: Function [16] 'classify' is invalid: The `return` expression Some([3]) does not match the declared return type Some([1])
+      10 |     return transfer_lookup(s.value).x;
          |            ^
     ");
     insta::assert_snapshot!(edited("shading/blinn_phong.wgsl", "params.shininess)", "params.shinyness)"), @r"
@@ -229,7 +229,7 @@ fn what_reaches_beyond_a_slot_is_refused_where_it_stands() {
             "",
             "    frame.two_sided = 0.0;",
             "5:5",
-            "Function [13] 'shade' is invalid: The pointer [3] doesn't relate to a valid destination for a store",
+            "Function [14] 'shade' is invalid: The pointer [3] doesn't relate to a valid destination for a store",
         ),
         ("", "    shade(medium, surface);", "4:4", "declaration of `shade` is recursive (uses itself here)"),
         (

@@ -78,8 +78,8 @@ fn t11_a_homogeneous_ball_converges_with_the_step() {
     for rate in [0.25, 0.5, 1.0, 2.0] {
         bench.put("traversal.sampling_rate", json!(rate));
         let errors = errors(&mut bench, 0.3, exact);
-        // Half a step at either wall, half a cell of the table and the displaced surface of the grid (met at 49 degrees at most).
-        let walls = h / rate + (range / STEP_TABLE + h * h / (2.0 * radius)) / 0.66;
+        // Half a step at either wall, and the displaced surface of the grid (met at 49 degrees at most).
+        let walls = h / rate + (range * STEP_PLACE + h * h / (2.0 * radius)) / 0.66;
         let worst = largest(&errors);
         println!("T11, rate {rate}: rms {:.2e}, largest {worst:.2e}, bound {:.2e}", rms(&errors), tau * walls);
         assert!(worst <= tau * walls, "{rate}: {worst}");

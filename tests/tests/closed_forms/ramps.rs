@@ -142,7 +142,7 @@ fn t8_a_step_is_met_to_half_a_step_and_exactly_by_pre_integration() {
         crate::rms(&counts.iter().cycle().take(25).map(|&samples| error(samples)).collect::<Vec<_>>())
     };
     for samples in [7, 10, 33, 64, 150, 400] {
-        let bound = tau * (0.5 / f64::from(samples) + 0.5 / STEP_TABLE);
+        let bound = tau * (0.5 / f64::from(samples) + STEP_PLACE);
         let found = error("transfer_function", samples);
         println!("T8 post, {samples} samples: error {found:.2e}, bound {bound:.2e}");
         assert!(found.abs() <= bound, "{samples}: {found}");

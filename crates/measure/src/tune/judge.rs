@@ -15,10 +15,14 @@ use crate::chain::Chain;
 use crate::yardstick::{Standard, choose, finest};
 use crate::{Errors, MeasureError, Refusal, Setting, Summary};
 
-/// Samples of the longest ray of the finest picture, for networks that the float64 reference cannot draw.
+/// Samples of the longest ray of the finest picture, for networks that the float64 reference cannot draw, at first.
 const FINEST_SAMPLES: f64 = 8192.0;
 /// Its samples a voxel: small volumes have few voxels, and their pictures are as coarse as the steps.
 const FINEST_RATES: [f64; 2] = [64.0, 1024.0];
+/// The finest picture gets so many times the samples where a quarter of its rate has not met the target.
+const SHARPER: f64 = 4.0;
+/// Samples of the longest ray that no finest picture exceeds.
+const MOST_SAMPLES: f64 = 65536.0;
 
 /// Share of a picture that must show something for it to count as a view.
 const LEAST_SHOWN: f64 = 0.01;
@@ -74,6 +78,7 @@ pub(super) enum Share {
 
 /// A network whose settings are judged.
 pub(super) struct Judge<'a> {
+    network: &'a Network,
     bench: Bench,
     goal: &'a Goal,
     cache: &'a Cache,
@@ -83,8 +88,9 @@ pub(super) struct Judge<'a> {
     /// Why the exact picture is not what is compared with, if it is not.
     pub refusal: Option<Refusal>,
     finest: Setting,
-    /// Its samples a voxel.
+    /// Its samples a voxel, and the most that it may have.
     pub finest_rate: f64,
+    most_rate: f64,
     /// The views in use so far, and what they should show.
     references: Vec<(Camera, Vec<[f64; 4]>)>,
     /// How many views were looked at to find them.
@@ -95,7 +101,7 @@ pub(super) struct Judge<'a> {
 
 impl<'a> Judge<'a> {
     pub fn new(
-        network: &Network,
+        network: &'a Network,
         chain: Chain,
         goal: &'a Goal,
         gpu: Gpu,
@@ -111,13 +117,17 @@ impl<'a> Judge<'a> {
             ));
         }
         let [least, most] = FINEST_RATES;
-        let finest_rate = match standard {
-            Standard::Finest => (FINEST_SAMPLES / bench.longest_ray()?).clamp(least, most),
-            _ => most,
-        };
+        let (mut finest_rate, mut most_rate) = (most, most);
+        if standard == Standard::Finest {
+            bench.set(&finest(network, &bench.chain, least), &camera)?;
+            let (longest, allowed) = (bench.longest_ray()?, bench.most_samples()? as f64);
+            most_rate = (MOST_SAMPLES.min(allowed) / longest).min(most);
+            finest_rate = (FINEST_SAMPLES / longest).clamp(least, most).min(most_rate);
+        }
         let finest = finest(network, &bench.chain, finest_rate);
         let (references, known) = (Vec::new(), BTreeMap::new());
         Ok(Self {
+            network,
             bench,
             goal,
             cache,
@@ -127,10 +137,26 @@ impl<'a> Judge<'a> {
             refusal,
             finest,
             finest_rate,
+            most_rate,
             references,
             looked: 0,
             known,
         })
+    }
+
+    /// Gives the finest picture more samples, where it is what settings are compared with and may have them. What was known is
+    /// forgotten.
+    pub fn sharpen(&mut self) -> bool {
+        let rate = (SHARPER * self.finest_rate).min(self.most_rate);
+        if self.standard != Standard::Finest || rate < 1.5 * self.finest_rate {
+            return false;
+        }
+        self.finest_rate = rate;
+        self.finest = finest(self.network, &self.bench.chain, rate);
+        self.references.clear();
+        self.known.clear();
+        self.looked = 0;
+        true
     }
 
     /// The errors of a setting in some views, up to the first that is not `enough`; `None` if it cannot be rendered.

@@ -115,7 +115,7 @@ pub fn tune(
     let chain = Chain::find(network, goal.port.as_ref())?;
     let judge = Judge::new(network, chain.clone(), goal, gpu, cache, progress)?;
     let knobs = Knobs::new(network, &chain);
-    let mut search = Search { judge, knobs, goal, views: goal.views.max(2), tried: Vec::new() };
+    let mut search = Search { judge, knobs, goal, views: goal.views.max(2), tried: Vec::new(), wants_more: false };
     let cheapest = goal.max_error.map(|allowed| search.cheapest(allowed)).transpose()?;
     match (cheapest, goal.budget_ms) {
         (Some(found), None) => {

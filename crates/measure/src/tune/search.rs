@@ -36,11 +36,25 @@ pub(super) struct Search<'a> {
     /// Views that settings are chosen by.
     pub views: usize,
     pub tried: Vec<Tried>,
+    /// Whether a higher sampling rate than the highest might have met the target.
+    pub wants_more: bool,
 }
 
 impl Search<'_> {
     /// The cheapest setting that keeps all errors within `allowed`, or the most accurate.
     pub fn cheapest(&mut self, allowed: f64) -> Result<Found, MeasureError> {
+        loop {
+            self.wants_more = false;
+            let found = self.cheapest_yet(allowed)?;
+            if found.met || !self.wants_more || !self.judge.sharpen() {
+                return Ok(found);
+            }
+            self.tried.clear();
+        }
+    }
+
+    /// The same, with the reference as it is.
+    fn cheapest_yet(&mut self, allowed: f64) -> Result<Found, MeasureError> {
         let start = self.knobs.start(allowed);
         let mut fitting = self.fitting(&start, allowed)?;
         if let (true, Some(finer)) = (fitting.is_empty(), self.knobs.finer(&start)) {
@@ -57,6 +71,7 @@ impl Search<'_> {
             self.views += self.goal.unseen;
             loop {
                 if candidate.rung + 1 >= self.rates() {
+                    self.wants_more = true;
                     return self.most_accurate(Some(allowed));
                 }
                 candidate = self.knobs.at(&candidate, candidate.rung + 1);
@@ -166,16 +181,21 @@ impl Search<'_> {
             let least = found.iter().map(|candidate| candidate.rung + BEYOND + 1).min();
             let rungs = self.rates().min(least.unwrap_or(usize::MAX));
             // The error of the saved view, and how often doubling the rate has left it about the same.
-            let mut floor = (f64::INFINITY, 0);
+            let (mut floor, mut stopped) = ((f64::INFINITY, 0), false);
             let rung = lowest(self.knobs.lowest()..rungs, |rung| {
                 let candidate = self.knobs.at(&integrator, rung);
-                let Some(errors) = self.score(&candidate, allowed)? else { return Ok(Answer::Stop) };
+                let Some(errors) = self.score(&candidate, allowed)? else {
+                    stopped = true;
+                    return Ok(Answer::Stop);
+                };
                 if self.meets(&candidate, allowed)? {
                     return Ok(Answer::Yes);
                 }
                 floor = (errors[0], if errors[0] > FLOOR * floor.0 { floor.1 + 1 } else { 0 });
-                Ok(if errors[0] > allowed && floor.1 >= 3 { Answer::Stop } else { Answer::No })
+                stopped = errors[0] > allowed && floor.1 >= 3;
+                Ok(if stopped { Answer::Stop } else { Answer::No })
             })?;
+            self.wants_more |= rung.is_none() && !stopped;
             let secured = |rung| self.knobs.secured(&self.knobs.at(&integrator, rung), self.rates());
             found.extend(rung.map(secured));
         }

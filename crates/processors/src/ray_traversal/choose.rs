@@ -11,6 +11,7 @@ use super::long_rays;
 use super::memory::Memory;
 use super::skipping::{Question, WORTHWHILE};
 use super::snippets::PLACES;
+use super::tables::has_steps;
 use super::{Inputs, OUTPORTS, SAMPLES};
 use crate::{Context, Data};
 
@@ -65,6 +66,7 @@ pub(super) fn plan<'a>(
         half_targets: job.properties.text("target")? == "16-bit",
         gaps: memory.gaps.of(volume, channel).is_some(),
         long_rays: steps > long_rays::LONG,
+        steps: false,
         channel,
         channels: volume.channels,
     };
@@ -78,6 +80,10 @@ pub(super) fn plan<'a>(
             "the gradient is to be read from the volume, but `{}` holds none; insert a gradient volume processor or choose another gradient",
             volume.name
         )));
+    }
+    if features.has("transfer_function") {
+        choice.steps =
+            has_steps(job.properties.transfer_function("transfer_function")?, volume.ranges()[channel as usize]);
     }
     let rounds = context.gpu.loop_rounds();
     let most_samples = rounds.map(|rounds| long_rays::most_samples(rounds, &library, &choice, &features));

@@ -48,7 +48,7 @@ pub(super) struct Drawn {
     pub samples: Option<Arc<Texture>>,
     /// What the shader read, by the names of its global variables.
     pub inputs: Vec<(String, Resource)>,
-    /// Rays, samples and contributing samples, when they were counted.
+    /// Rays, samples and contributing samples, when they were counted, and how many samples a ray may take.
     pub counted: Option<Map<String, serde_json::Value>>,
 }
 
@@ -111,7 +111,7 @@ impl Pass<'_> {
         if let Some(overrun) = overrun.filter(|_| bindings.iter().any(|field| field.name == "overrun")) {
             self.check_loops(&context.gpu, &overrun)?;
         }
-        let counted = counters.map(|counters| counts(&context.gpu, &counters)).transpose()?;
+        let counted = counters.map(|counters| counts(&context.gpu, &counters, frame.max_samples)).transpose()?;
         // Targets go back to the pool when nobody shows them any more.
         resources.retain(|(name, _)| name != "counters" && name != "sample_map" && !name.starts_with("out"));
         Ok(Drawn { targets, samples, inputs: resources, counted })
@@ -382,11 +382,11 @@ fn linear_sampler(gpu: &Gpu) -> wgpu::Sampler {
     })
 }
 
-fn counts(gpu: &Gpu, counters: &wgpu::Buffer) -> Result<Map<String, serde_json::Value>, GpuError> {
+fn counts(gpu: &Gpu, counters: &wgpu::Buffer, most: u32) -> Result<Map<String, serde_json::Value>, GpuError> {
     let bytes = gpu.read_buffer(counters)?;
     let words: Vec<u32> =
         bytes.chunks_exact(4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]])).collect();
     let wide = |slot: usize| u64::from(words[slot]) | u64::from(words[slot + 1]) << 32;
-    let named = [("rays", wide(0)), ("samples", wide(2)), ("contributing", wide(4))];
+    let named = [("rays", wide(0)), ("samples", wide(2)), ("contributing", wide(4)), ("most_samples", most.into())];
     Ok(named.into_iter().map(|(name, count)| (name.to_owned(), json!(count))).collect())
 }

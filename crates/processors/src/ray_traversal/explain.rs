@@ -44,6 +44,7 @@ impl Pass<'_> {
         found.push(self.skipping());
         found.extend(self.termination());
         found.extend(self.faint_sums());
+        found.extend(self.cuts());
         found.extend(self.pre_integration()?);
         let switches = [
             ("jitter", "jitter of the samples", "switched off"),
@@ -109,6 +110,15 @@ impl Pass<'_> {
         choice.outputs.iter().flatten().any(|path| keeps(path)).then(|| match self.has("long_rays") {
             true => Explanation::new(Role::Computed, "sums of faint samples", "rays may take more than 8192 samples"),
             false => Explanation::new(Role::LeftOut, "sums of faint samples", "no ray takes more than 8192 samples"),
+        })
+    }
+
+    /// How steps of the transfer function are met.
+    fn cuts(&self) -> Option<Explanation> {
+        let what = "cuts of the transfer function's table";
+        self.has("transfer_function").then(|| match self.has("steps") {
+            true => Explanation::new(Role::Computed, what, "it has steps, which would be as wide as an entry"),
+            false => Explanation::new(Role::LeftOut, what, "no step is sharper than an entry"),
         })
     }
 

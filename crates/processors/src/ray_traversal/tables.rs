@@ -5,13 +5,12 @@ use std::sync::Arc;
 use bytemuck::cast_slice;
 use rayloom_gpu::wgpu::{TextureFormat, TextureUsages};
 use rayloom_gpu::{Gpu, GpuError, Texture};
-use rayloom_volume::{Knot, LabelTable, TransferFunction, TransferFunction2D, ValueRange};
+use rayloom_volume::{LabelTable, SplitTable, TransferFunction, TransferFunction2D, ValueRange};
 
-/// Entries of a 1-D table: 16 KiB, which a first-level cache holds.
+/// Entries of most 1-D tables: 16 KiB, which a first-level cache holds.
 pub(super) const ENTRIES: usize = 1024;
-/// Entries of a 1-D table with steps, each of which is as wide as a cell: 128 KiB, eight cells for one of the others, and no more
-/// than the 8192 texels that every device allows.
-const ENTRIES_OF_STEPS: usize = 8 * (ENTRIES - 1) + 1;
+/// How many times as many cells a 1-D table may have whose ramps are steep: no more than the 8192 texels that every device allows.
+const FINEST: usize = 8;
 /// Entries along each axis of a 2-D table.
 pub(super) const ENTRIES_2D: usize = 256;
 
@@ -23,18 +22,19 @@ fn upload(gpu: &Gpu, label: &str, size: [usize; 2], entries: &[[f32; 4]]) -> Res
     Ok(Arc::new(texture))
 }
 
-/// One row over the value range.
+/// One row over the value range; the rows of a split table where the function has steps.
 pub(super) fn table(gpu: &Gpu, function: &TransferFunction, range: ValueRange) -> Result<Arc<Texture>, GpuError> {
-    let entries = if has_steps(function, range) { ENTRIES_OF_STEPS } else { ENTRIES };
-    upload(gpu, "transfer function", [entries, 1], &function.table(range, entries))
+    let entries = function.table_entries(range, ENTRIES, FINEST);
+    if !has_steps(function, range) {
+        return upload(gpu, "transfer function", [entries, 1], &function.table(range, entries));
+    }
+    let table = function.split_table(range, entries);
+    upload(gpu, "transfer function", [table.width, SplitTable::ROWS], &table.entries)
 }
 
-/// Whether a function jumps, or rises or falls within less than a cell of the smaller table.
-fn has_steps(function: &TransferFunction, range: ValueRange) -> bool {
-    // A hundredth of a cell less, because knots on the entries themselves are no steps, whichever way they were rounded.
-    let cell = 0.99 * range.width() / (ENTRIES - 1) as f64;
-    let narrow = |pair: &[Knot]| pair[1].at - pair[0].at < cell && pair[0].right_side() != pair[1].left_side();
-    function.knots.iter().any(|knot| knot.right.is_some()) || function.knots.windows(2).any(narrow)
+/// Whether the table is cut at steps.
+pub(super) fn has_steps(function: &TransferFunction, range: ValueRange) -> bool {
+    function.has_steps(range, ENTRIES)
 }
 
 /// Rows of rising gradient magnitude, 0 to `gradient_maximum`.

@@ -6,10 +6,12 @@
 mod labels;
 mod one_dimensional;
 mod preintegration;
+mod split_table;
 mod two_dimensional;
 
 pub use labels::{Label, LabelTable};
 pub use one_dimensional::{Knot, RightSide, TransferFunction, table_interval};
+pub use split_table::SplitTable;
 pub use two_dimensional::{Primitive, Shape, TransferFunction2D};
 
 use serde::{Deserialize, Serialize};

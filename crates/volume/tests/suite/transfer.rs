@@ -2,7 +2,8 @@
 
 use proptest::prelude::*;
 use rayloom_volume::{
-    Knot, Label, LabelTable, MAX_EXTINCTION, Medium, Rgba, TransferFunction, ValueRange, extinction, table_interval,
+    Knot, Label, LabelTable, MAX_EXTINCTION, Medium, Rgba, SplitTable, TransferFunction, ValueRange, extinction,
+    table_interval,
 };
 
 const RED: [f64; 3] = [1.0, 0.0, 0.0];
@@ -102,6 +103,113 @@ fn tables_start_and_end_with_the_range() {
     }
     assert_eq!(f.table(ValueRange::new(3.0, 3.0), 2), [f.medium(3.0).to_entry(); 2]);
     assert!(f.table(RANGE, 0).is_empty() && f.table(RANGE, 1).len() == 1);
+}
+
+/// The medium that the shader finds at a normalised value, in the shader's precision.
+fn split_lookup(table: &SplitTable, u: f32) -> [f32; 4] {
+    let last = table.width - 1;
+    let entry = |i: usize, row: usize| table.entries[row * table.width + i];
+    let x = u.clamp(0.0, 1.0) * last as f32;
+    let i = (x as usize).min(last - 1);
+    let [first, second, ..] = entry(i, 6);
+    let piece = usize::from(x >= first) + usize::from(x >= second);
+    let ends = [i as f32, first, second, (i + 1) as f32];
+    let along = ((x - ends[piece]) / (ends[piece + 1] - ends[piece]).max(1e-9)).clamp(0.0, 1.0);
+    let (start, end) = (entry(i, 2 * piece), entry(i, 2 * piece + 1));
+    std::array::from_fn(|c| start[c] * (1.0 - along) + end[c] * along)
+}
+
+#[test]
+fn steps_are_met_at_every_value_of_8_bits() {
+    let range = ValueRange::new(0.0, 255.0);
+    // A weighted mean of two equal numbers may be rounded.
+    let same = |a: [f32; 4], b: Medium| a.iter().zip(b.to_entry()).all(|(a, b)| (a - b).abs() < 1e-6);
+    for step in 0..=255u8 {
+        let f = function(vec![Knot::split(f64::from(step), (RED, 0.25), (BLUE, 0.75))]);
+        let table = f.split_table(range, f.table_entries(range, 1024, 8));
+        assert_eq!((table.width, table.entries.len()), (1024, 1024 * SplitTable::ROWS));
+        for value in 0..=255u8 {
+            // As an unorm texel, and a little off.
+            for u in
+                [f32::from(value) / 255.0, f32::from(value) * (1.0 / 255.0), (f32::from(value) / 255.0).next_down()]
+            {
+                assert!(same(split_lookup(&table, u), f.medium(value.into())), "step {step}, value {value}");
+            }
+        }
+        // Nothing is blended next to the step.
+        for (off, side) in [(-1e-6, f.medium(-1.0)), (1e-6, f.medium(256.0))] {
+            let u = (f64::from(step) / 255.0 + off) as f32;
+            if (0.0..=1.0).contains(&u) {
+                assert!(same(split_lookup(&table, u), side), "step {step} {off}");
+            }
+        }
+    }
+}
+
+#[test]
+fn steep_ramps_get_finer_tables() {
+    let range = ValueRange::new(0.0, 1.0);
+    for (width, opacity, entries) in [(0.1, 0.6, 1024), (0.02, 0.8, 4093), (0.002, 0.8, 8185), (0.002, 0.02, 1024)] {
+        let f = function(vec![Knot::new(0.3, RED, 0.0), Knot::new(0.3 + width, BLUE, opacity)]);
+        assert_eq!(f.table_entries(range, 1024, 8), entries, "{width} {opacity}");
+        let table = f.table(range, entries);
+        // But for the cells with the ends of the ramp, which are blunted.
+        let cell = 1.0 / (entries - 1) as f64;
+        let inner = (0..=2000).map(|i| 0.3 + cell + (width - 2.0 * cell) * f64::from(i) / 2000.0);
+        let worst = inner.map(|value| {
+            let x = value * (entries - 1) as f64;
+            let [a, b] = [0, 1].map(|next| f64::from(table[(x as usize + next).min(entries - 1)][3]));
+            let found = a + (b - a) * x.fract();
+            ((-found).exp() - (1.0 - f.evaluate(value).opacity)).abs()
+        });
+        let worst = worst.fold(0.0, f64::max);
+        assert!(worst < if entries == 8185 { 2e-3 } else { 1e-4 }, "{width} {opacity}: {worst}");
+    }
+}
+
+#[test]
+fn bands_of_any_width_keep_their_width() {
+    let range = ValueRange::new(0.0, 1.0);
+    for width in [1e-2, 1e-3, 1e-4, 1e-5] {
+        for at in [0.1, 0.25, 0.500_001, 0.98] {
+            let band =
+                |at: f64| [Knot::split(at, (RED, 0.0), (RED, 0.05)), Knot::split(at + width, (RED, 0.05), (RED, 0.0))];
+            let ramp = |at: f64| {
+                [
+                    Knot::new(at, RED, 0.0),
+                    Knot::new(at + width, RED, 0.05),
+                    Knot::split(at + 0.015, (RED, 0.05), (RED, 0.0)),
+                ]
+            };
+            for f in [
+                function(band(at).to_vec()),
+                function([band(at), band(at + 3.0 * width)].concat()),
+                function(ramp(at).to_vec()),
+            ] {
+                assert!(f.has_steps(range, 1024));
+                let table = f.split_table(range, f.table_entries(range, 1024, 8));
+                for i in 0..=1000 {
+                    let value = at + width * (f64::from(i) * 0.006 - 1.0);
+                    let steps = [0.0, width, 3.0 * width, 4.0 * width, 0.015];
+                    let near_step = value > 1.0 || steps.iter().any(|&step| (value - at - step).abs() < 1e-6);
+                    let (found, expected) = (split_lookup(&table, value as f32), f.medium(value).to_entry());
+                    // A ramp within a cell rises by the slack of `f32` over its width.
+                    let tolerance = 1e-3 + 1e-6 / width as f32;
+                    assert!(
+                        near_step || (found[3] - expected[3]).abs() < tolerance,
+                        "{width} at {at}: {found:?} {expected:?}"
+                    );
+                }
+            }
+        }
+    }
+    // Hundreds of breaks in a thousandth of the range: more cells, and no more than allowed.
+    let comb = (0..400).map(|i| Knot::split(0.5 + f64::from(i) * 2.5e-6, (RED, 0.1), (RED, 0.9)));
+    let comb = function(comb.collect());
+    assert_eq!(comb.table_entries(range, 1024, 8), 8 * 1023 + 1);
+    let table = comb.split_table(range, 1024);
+    assert!(table.entries.iter().flatten().all(|number| number.is_finite()));
+    assert_eq!(function(vec![]).split_table(ValueRange::new(2.0, 2.0), 2).entries.len(), 2 * SplitTable::ROWS);
 }
 
 proptest! {
