@@ -10,5 +10,7 @@ fn classify(s: Sample) -> vec4f {
     let voxel = clamp(vec3i(floor(s.position * vec3f(size))), vec3i(0), size - 1);
     let label = i32(round(frame.label_minimum + frame.label_span * textureLoad(label_volume, voxel, 0).x));
     let rows = i32(textureDimensions(label_table).y);
-    return table_lookup(label_table, clamp(label, 0, rows - 1), s.value);
+    // The last row, behind those of all labels, is transparent.
+    let row = select(rows - 1, min(label, rows - 1), label >= 0);
+    return table_lookup(label_table, row, s.value);
 }

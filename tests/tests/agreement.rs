@@ -316,6 +316,7 @@ fn every_gradient() {
         ("backward", GradientOperator::Backward),
         ("central", GradientOperator::Central),
         ("central4", GradientOperator::CentralFourth),
+        ("sobel", GradientOperator::Sobel),
     ] {
         let surface = subject.judge(Look { gradient, ..LOOKS[3] }, &above);
         let medium = subject.judge(Look { gradient, ..LOOKS[4] }, &below);

@@ -151,8 +151,8 @@ impl Bench {
 
     /// What the network shows, as a scene of the reference.
     pub fn subject(&mut self) -> Result<Subject, MeasureError> {
-        let Chain { volume, entry, geometry, .. } = self.chain.clone();
-        self.bring(vec![volume, entry, geometry])?;
+        let Chain { volume, labels, entry, geometry, .. } = self.chain.clone();
+        self.bring(vec![volume, labels, entry, geometry])?;
         Subject::of(&self.network, |port| self.evaluator.output(&port.processor, &port.item), &self.chain)
     }
 

@@ -16,6 +16,8 @@ pub struct Chain {
     pub image: Address,
     /// The outport that gives the volume.
     pub volume: Address,
+    /// The outport that gives the labels: that of the volume where no other is connected.
+    pub labels: Address,
     /// The outport that gives the entry points.
     pub entry: Address,
     /// The processor that holds the camera.
@@ -41,6 +43,7 @@ impl Chain {
         let traversal = &image.processor;
         let source = |processor: &str, inport: &str| feeding(network, processor, inport);
         let (volume, entry) = (source(traversal, "volume")?, source(traversal, "entry")?);
+        let labels = source(traversal, "labels").unwrap_or_else(|_| volume.clone());
         let view = entry.processor.clone();
         if network.processor(&view).is_none_or(|processor| processor.type_id() != VIEW) {
             return Err(MeasureError::Subject(format!(
@@ -50,7 +53,7 @@ impl Chain {
         }
         let geometry = source(&view, "geometry")?;
         let precise = precise_source(network, &volume.processor);
-        Ok(Self { geometry, source: precise, image, volume, entry, view })
+        Ok(Self { geometry, source: precise, image, volume, labels, entry, view })
     }
 
     /// The processor on which the storage of precomputed gradients is chosen, if the volume has any.

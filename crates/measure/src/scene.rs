@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use rayloom_network::{self as network, LightSpace, Network, Properties};
-use rayloom_processors::{Data, Mesh, View};
+use rayloom_processors::{Data, Mesh, View, same_box};
 use rayloom_reference::field::Sampling;
 use rayloom_reference::gradient::GradientOperator;
 use rayloom_reference::ray::AxisBox;
 use rayloom_reference::shading::{self, BlinnPhong};
-use rayloom_reference::{Camera, Method, Projection, Reference, Refinement, Scene};
+use rayloom_reference::{Camera, Classification, Labels, Method, Projection, Reference, Refinement, Scene};
 use rayloom_volume::{Knot, TransferFunction, Volume, VolumeRole};
 
 use crate::chain::Chain;
@@ -29,7 +29,7 @@ pub struct Subject {
     jitter: Option<u32>,
     reference_length: f64,
     method: Method,
-    classification: TransferFunction,
+    classification: Classification,
     shading: Option<BlinnPhong>,
     gradient: GradientOperator,
     early_termination: Option<f64>,
@@ -44,8 +44,8 @@ fn refuse<T>(why: impl Into<String>) -> Refusable<T> {
 }
 
 impl Subject {
-    /// What the ray traversal of `chain` shows. `outputs` gives what is on the outports `volume`, `entry` and `geometry` of
-    /// the chain.
+    /// What the ray traversal of `chain` shows. `outputs` gives what is on the outports `volume`, `labels`, `entry` and
+    /// `geometry` of the chain.
     ///
     /// # Errors
     /// A [`Refusal`] where the traversal shows something that the reference does not know: another compositing, shading,
@@ -59,16 +59,20 @@ impl Subject {
         let properties =
             network.processor(chain.traversal()).ok_or_else(|| missing(chain.image.to_string()))?.properties();
         let output = |port: &network::Address| outputs(port).ok_or_else(|| missing(port.to_string()));
-        let Data::Volume(data) = output(&chain.volume)? else { return Err(missing(chain.volume.to_string())) };
+        let volume_at = |port| match output(port)? {
+            Data::Volume(data) => Ok(data.volume.clone()),
+            _ => Err(missing(port.to_string())),
+        };
         let Data::Geometry(mesh) = output(&chain.geometry)? else { return Err(missing(chain.geometry.to_string())) };
         let view = match output(&chain.entry)? {
             Data::Image(image) => image.view.clone().ok_or_else(|| missing(chain.entry.to_string()))?,
             _ => return Err(missing(chain.entry.to_string())),
         };
         check_texts(&properties, &chain.image.item)?;
-        let volume = data.volume.clone();
+        let volume = volume_at(&chain.volume)?;
         let method = method(&properties, &chain.image.item)?;
-        let classification = classification(&properties, &chain.image.item, method)?;
+        let classification = classification(&properties, &chain.image.item, method, || volume_at(&chain.labels))?;
+        check_box(&volume, &classification)?;
         let shading = shading(&properties, method)?;
         let gradient = match shading {
             Some(_) => gradient(&properties, network, chain)?,
@@ -126,7 +130,7 @@ impl Subject {
                 == (other.channel, other.sampling, other.gradient, other.size)
             && (self.clip, self.camera, self.shading) == (other.clip, other.camera, other.shading)
             && self.reference_length == other.reference_length
-            && self.classification == other.classification
+            && same_classification(&self.classification, &other.classification)
     }
 
     /// Whether a reference can draw it.
@@ -138,6 +142,16 @@ impl Subject {
             (Some(refusal), Reference::SameSamples) => Err(refusal.clone()),
             _ => Ok(()),
         }
+    }
+}
+
+fn same_classification(a: &Classification, b: &Classification) -> bool {
+    match (a, b) {
+        (Classification::Function(a), Classification::Function(b)) => a == b,
+        (Classification::Labels(a), Classification::Labels(b)) => {
+            a.table == b.table && same_values(&a.volume, &b.volume)
+        }
+        _ => false,
     }
 }
 
@@ -195,19 +209,42 @@ fn refinement(properties: &Properties) -> Refusable<Refinement> {
     })
 }
 
-fn classification(properties: &Properties, outport: &str, method: Method) -> Refusable<TransferFunction> {
+/// `labels` gives the label volume.
+fn classification(
+    properties: &Properties,
+    outport: &str,
+    method: Method,
+    labels: impl Fn() -> Refusable<Arc<Volume>>,
+) -> Refusable<Classification> {
     if let Method::Isosurface { .. } = method {
         let [r, g, b, _] = properties.color(&format!("{}.color", compositing_of(outport)))?;
         let surface = TransferFunction::new(vec![Knot::new(0.0, [r, g, b], 1.0)]);
-        return surface.or_else(|error| refuse(format!("the colour of the surface is none ({error})")));
+        return match surface {
+            Ok(surface) => Ok(surface.into()),
+            Err(error) => refuse(format!("the colour of the surface is none ({error})")),
+        };
     }
     match properties.text("classification")? {
         "transfer_function" | "preintegrated_fast" | "preintegrated_full" => {
-            Ok(properties.transfer_function("transfer_function")?.clone())
+            Ok(properties.transfer_function("transfer_function")?.clone().into())
         }
         "transfer_function_2d" => refuse("it knows no transfer functions over value and gradient"),
-        "labels" => refuse("it knows no labels"),
-        other => refuse(format!("the classification `{other}` has no counterpart there; it knows transfer functions")),
+        "labels" if method == Method::Dvr => {
+            Ok(Classification::Labels(Labels { volume: labels()?, table: properties.labels("label_table")?.clone() }))
+        }
+        "labels" => refuse("it classifies by labels in direct volume rendering only; choose the compositing dvr"),
+        other => refuse(format!(
+            "the classification `{other}` has no counterpart there; it knows transfer functions of the value, and labels"
+        )),
+    }
+}
+
+fn check_box(volume: &Volume, classification: &Classification) -> Refusable<()> {
+    match classification {
+        Classification::Labels(labels) if !same_box(&volume.texture_to_world(), &labels.volume.texture_to_world()) => {
+            refuse("the labels and the volume fill different boxes in the world; use labels of the same scan")
+        }
+        _ => Ok(()),
     }
 }
 
@@ -252,10 +289,11 @@ fn gradient(properties: &Properties, network: &Network, chain: &Chain) -> Refusa
         "forward" => GradientOperator::Forward,
         "backward" => GradientOperator::Backward,
         "central4" => GradientOperator::CentralFourth,
+        "sobel" => GradientOperator::Sobel,
         "precomputed" => return precomputed(properties, network, chain),
         other => {
             return refuse(format!(
-                "the gradient `{other}` has no counterpart there; it knows central, forward, backward and central4"
+                "the gradient `{other}` has no counterpart there; it knows central, forward, backward, central4 and sobel"
             ));
         }
     })

@@ -38,5 +38,5 @@ pub use ray_traversal::{
     Trace, TraceOutput, TraceSample, reload_snippets, save_user_snippet, snippet_library, snippet_revision, user_folder,
 };
 pub use registry::{processors, registry};
-pub use view::View;
+pub use view::{View, same_box};
 pub use volume_texture::{GpuVolume, Storage};

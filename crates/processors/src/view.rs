@@ -7,6 +7,13 @@ use rayloom_network::{Camera, ProcessError, Projection};
 /// the eye if that is inside.
 const NEAREST: f64 = 1e-6;
 
+/// Whether two mappings of volume coordinates to the world are of the same box, but for rounding in files.
+pub fn same_box(a: &DAffine3, b: &DAffine3) -> bool {
+    const SAME: f64 = 1e-4;
+    let scale = a.matrix3.to_cols_array().iter().fold(f64::MIN_POSITIVE, |largest, x| largest.max(x.abs()));
+    a.to_cols_array().into_iter().zip(b.to_cols_array()).all(|(a, b)| (a - b).abs() <= SAME * scale)
+}
+
 /// A camera, an image size and a volume box seen together.
 ///
 /// Rays are not derived from a depth range: planes just before and behind the box are fitted in f64, and a pixel's ray

@@ -19,6 +19,7 @@
 
 mod cache;
 pub mod camera;
+mod classification;
 pub mod closed_forms;
 pub mod exact;
 pub mod field;
@@ -38,6 +39,7 @@ mod surface;
 
 pub use cache::{Cache, Cached, Source};
 pub use camera::{Camera, Projection};
+pub use classification::{Classification, Labels};
 pub use image::{Image, MISS, Rectangle};
 pub use metrics::{Comparison, DisplayComparison, DisplayPicture, SurfaceComparison, SurfacePoint};
 pub use prepared::SurfaceHit;

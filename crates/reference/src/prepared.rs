@@ -1,6 +1,7 @@
 //! What every renderer of a scene needs before its first ray.
 
 use crate::camera::View;
+use crate::classification::Functions;
 use crate::field::Field;
 use crate::ray::{AxisBox, Ray, Segment};
 use crate::scene::{Method, Scene, SceneError};
@@ -19,11 +20,12 @@ pub struct SurfaceHit {
     pub depth: f64,
 }
 
-/// A scene made ready: checked, with its field and transformations computed.
+/// A scene made ready: checked, with its field, transfer functions and transformations computed.
 #[derive(Debug)]
 pub(crate) struct Prepared<'a> {
     pub(crate) scene: &'a Scene<'a>,
     pub(crate) field: Field,
+    pub(crate) functions: Functions,
     view: View,
     bounds: AxisBox,
     texture_to_world: DAffine3,
@@ -52,6 +54,7 @@ impl<'a> Prepared<'a> {
         let texture_to_world = scene.volume.texture_to_world();
         Ok(Self {
             field: Field::new(scene.volume, scene.channel, scene.sampling),
+            functions: Functions::new(&scene.classification),
             bounds: AxisBox::UNIT.intersection(&scene.clip),
             texture_to_world,
             world_to_texture: texture_to_world.inverse(),

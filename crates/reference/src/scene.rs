@@ -1,11 +1,12 @@
 //! What is to be rendered.
 
 use crate::camera::Camera;
+use crate::classification::Classification;
 use crate::field::Sampling;
 use crate::gradient::GradientOperator;
 use crate::ray::AxisBox;
 use crate::shading::BlinnPhong;
-use rayloom_volume::{TransferFunction, Volume};
+use rayloom_volume::Volume;
 
 /// How an isosurface is located between the two samples that enclose it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,8 +66,8 @@ pub struct Scene<'a> {
     pub reference_length: f64,
     /// What becomes of the samples of a ray.
     pub method: Method,
-    /// Colours and opacities over data units.
-    pub classification: TransferFunction,
+    /// Colours and opacities; by labels for [`Method::Dvr`] only.
+    pub classification: Classification,
     /// Lighting of [`Method::Dvr`] and [`Method::Isosurface`]; the others are never lit.
     pub shading: Option<BlinnPhong>,
     /// How gradients for the lighting are taken.
@@ -80,7 +81,7 @@ pub struct Scene<'a> {
 impl<'a> Scene<'a> {
     /// The whole first channel of `volume`, rendered by [`Method::Dvr`] at one trilinear sample per voxel, without lighting or
     /// early termination; opacities are per unit length.
-    pub fn new(volume: &'a Volume, classification: TransferFunction, camera: Camera, size: [u32; 2]) -> Self {
+    pub fn new(volume: &'a Volume, classification: impl Into<Classification>, camera: Camera, size: [u32; 2]) -> Self {
         Self {
             volume,
             channel: 0,
@@ -91,7 +92,7 @@ impl<'a> Scene<'a> {
             rate: 1.0,
             reference_length: 1.0,
             method: Method::Dvr,
-            classification,
+            classification: classification.into(),
             shading: None,
             gradient: GradientOperator::default(),
             jitter: None,
@@ -122,6 +123,9 @@ impl<'a> Scene<'a> {
             && !value.is_finite()
         {
             return Err(SceneError::Isovalue { found: value });
+        }
+        if matches!(self.classification, Classification::Labels(_)) && self.method != Method::Dvr {
+            return Err(SceneError::Labels);
         }
         Ok(())
     }
@@ -177,4 +181,7 @@ pub enum SceneError {
         /// Its value.
         found: f64,
     },
+    /// One value of a whole ray has no label.
+    #[error("Only direct volume rendering looks at labels: choose it, or classify by a transfer function.")]
+    Labels,
 }

@@ -104,7 +104,7 @@ fn e22_gaps_in_every_look() {
         let mut scene = Scene { method, ..Scene::new(&volume, function.clone(), camera, SIZE) };
         if compositing == "isosurface" {
             // Its colour is its own property here.
-            scene.classification = crate::function(&[(0.0, [0.9, 0.85, 0.75], 1.0)]);
+            scene.classification = crate::function(&[(0.0, [0.9, 0.85, 0.75], 1.0)]).into();
         }
         let expected = same_samples::render(&scene).expect("a scene that makes sense");
         let share = Comparison::new(&found.color, &expected.color).expect("one size").share_within(AGREEMENT_PIXEL);

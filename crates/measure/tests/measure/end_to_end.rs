@@ -182,7 +182,7 @@ fn isosurface(shading: &str) -> Network {
 
 #[test]
 fn surfaces_are_compared_where_rays_meet_them() {
-    let vary = ["traversal.refinement=none,secant", "traversal.gradient=central,sobel"];
+    let vary = ["traversal.refinement=none,secant", "traversal.gradient=central,filtered"];
     let found = measured(&isosurface("diffuse"), &plan(&vary, &[])).expect("measurements");
     assert_eq!(found.reference, "exact");
     let surface = |index: usize| found.settings[index].all.surface.expect("a surface");

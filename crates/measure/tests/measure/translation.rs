@@ -50,6 +50,15 @@ fn the_same_samples_agree_with_the_device() {
             ("traversal.sampling", json!("catmull_rom")),
         ],
         &[("traversal.compositing", json!("sum")), ("traversal.compositing.gain", json!(0.5))],
+        // Without labels of its own, the volume is one.
+        &[
+            ("traversal.classification", json!("labels")),
+            (
+                "traversal.label_table",
+                json!({"0": {"name": "faint", "transfer_function": {"knots": [
+                {"at": 0.1, "color": [0.2, 0.5, 1], "opacity": 0.2}]}}}),
+            ),
+        ],
         &[
             ("traversal.compositing", json!("isosurface")),
             ("traversal.compositing.isovalue", json!(0.35)),
@@ -70,6 +79,59 @@ fn the_same_samples_agree_with_the_device() {
         assert!(visible > expected.pixels.len() / 20, "{case:?}: only {visible} pixels show something");
         let (errors, _) = Errors::of(&found.pixels, &expected.pixels).expect("pictures of one size");
         assert!(errors.mean <= AGREEMENT, "{case:?}: {errors:?}");
+    }
+}
+
+/// Cubes of the labels 0 and 1 on a grid of their own, which the medium shows in two looks; label 7 does not occur.
+fn labelled(set: &[(&str, Json)]) -> Network {
+    let white = json!({"knots": [{"at": 0.0, "color": [1, 1, 1], "opacity": 0.3}]});
+    let red = json!({"knots": [
+        {"at": 0.1, "color": [0.8, 0.1, 0.2], "opacity": 0.1}, {"at": 0.5, "color": [1, 0.7, 0.2], "opacity": 0.8}]});
+    let table = json!({
+        "0": {"name": "even", "transfer_function": {"knots": [{"at": 0.1, "color": [0.2, 0.5, 1], "opacity": 0.05}]}},
+        "1": {"name": "odd", "transfer_function": red}, "7": {"name": "none", "transfer_function": white},
+    });
+    let mut network = network(&[]);
+    network.add("volume_generator", "labels").expect("a generator");
+    network.connect(Address::new("labels", "volume"), Address::new("traversal", "labels")).expect("a connection");
+    let cubes = [
+        ("labels.field", json!("checkerboard")),
+        ("labels.cells", json!(3)),
+        ("labels.dims", json!([7, 9, 5])),
+        ("labels.extent", json!([24, 22, 24])),
+        ("traversal.classification", json!("labels")),
+        ("traversal.label_table", table),
+    ];
+    for (property, value) in cubes.iter().chain(set) {
+        let (processor, property) = property.split_once('.').expect("PROCESSOR.PROPERTY");
+        network.set_from_json(processor, property, value).unwrap_or_else(|error| panic!("{error}"));
+    }
+    network
+}
+
+#[test]
+fn labels_are_those_of_the_device() {
+    let lit = [("traversal.shading", json!("blinn_phong")), ("traversal.gradient", json!("sobel"))];
+    for set in [&[][..], &lit] {
+        let network = labelled(set);
+        let expected = drawn(&network, Reference::SameSamples).expect("a picture");
+        let (errors, _) = Errors::of(&shown(&network).pixels, &expected.pixels).expect("pictures of one size");
+        assert!(errors.mean <= AGREEMENT, "{set:?}: {errors:?}");
+    }
+    let exact = drawn(&labelled(&[]), Reference::Exact).expect("a picture");
+    let error = |rate: f64| {
+        let finer = [("traversal.sampling_rate", json!(rate)), ("traversal.termination_error", json!(0))];
+        Errors::of(&shown(&labelled(&finer)).pixels, &exact.pixels).expect("pictures of one size").0.rmse
+    };
+    // The faces of labels are jumps: halved steps halve the error.
+    let errors = [2.0, 4.0, 8.0, 16.0].map(error);
+    println!("{errors:?}");
+    let order = (errors[0] / errors[3]).log2() / 3.0;
+    assert!((0.8..1.3).contains(&order), "order {order} of {errors:?}");
+
+    let unknown = labelled(&[("labels.field", json!("constant")), ("labels.value", json!(-2))]);
+    for picture in [shown(&unknown), drawn(&unknown, Reference::Exact).expect("a picture")] {
+        assert!(picture.pixels.iter().all(|pixel| *pixel == [0.0; 4]), "labels that mean nothing are transparent");
     }
 }
 
@@ -94,13 +156,16 @@ fn what_the_reference_cannot_draw_is_refused_with_a_reason() {
     let cases: &[(&[(&str, Json)], &str)] = &[
         (&[("traversal.compositing", json!("mida"))], "the compositing `mida` has no counterpart there"),
         (&[("traversal.shading", json!("toon"))], "the shading `toon` has no counterpart there"),
-        (&[lit.clone(), ("traversal.gradient", json!("sobel"))], "the gradient `sobel` has no counterpart there"),
+        (&[lit.clone(), ("traversal.gradient", json!("filtered"))], "the gradient `filtered` has no counterpart there"),
         (&[lit, ("traversal.compositing", json!("mip"))], "it does not light the extremes of rays"),
         (
             &[("traversal.classification", json!("transfer_function_2d"))],
             "no transfer functions over value and gradient",
         ),
-        (&[("traversal.classification", json!("labels"))], "it knows no labels"),
+        (
+            &[("traversal.classification", json!("labels")), ("traversal.compositing", json!("mean"))],
+            "it classifies by labels in direct volume rendering only",
+        ),
         (&[("clip.enabled", json!(true))], "the proxy geometry is not a box along the voxel axes"),
         (&[("traversal.sampling.text", json!("fn x() {}"))], "the slot `sampling` holds a text of your own"),
     ];

@@ -28,6 +28,7 @@ use rayloom_wgsl::{Assembled, Validated};
 use crate::process::{Process, Runner};
 use memory::Memory;
 
+use crate::view::same_box;
 use crate::{Context, Data, Image, JobData, View, VolumeData};
 
 pub use snippets::{reload_snippets, save_user_snippet, snippet_library, snippet_revision, user_folder};
@@ -118,21 +119,15 @@ impl<'a> Inputs<'a> {
 
     /// Everything must be given in the coordinates of one box.
     fn check_boxes(&self) -> Result<(), ProcessError> {
-        const SAME: f64 = 1e-4;
         let own = self.volume.volume.texture_to_world();
-        let scale = own.matrix3.to_cols_array().iter().fold(f64::MIN_POSITIVE, |largest, x| largest.max(x.abs()));
-        let differs = |other: glam::DAffine3| {
-            let pairs = own.to_cols_array().into_iter().zip(other.to_cols_array());
-            pairs.into_iter().any(|(a, b)| (a - b).abs() > SAME * scale)
-        };
-        if differs(self.view.texture_to_world) {
+        if !same_box(&own, &self.view.texture_to_world) {
             return Err(ProcessError::new(format!(
                 "the entry points were made for another box than that of the volume `{}`; connect the same volume to the proxy geometry",
                 self.volume.volume.name
             )));
         }
         match self.labels {
-            Some(labels) if differs(labels.volume.texture_to_world()) => Err(ProcessError::new(format!(
+            Some(labels) if !same_box(&own, &labels.volume.texture_to_world()) => Err(ProcessError::new(format!(
                 "the labels `{}` and the volume `{}` fill different boxes in the world; use labels of the same scan",
                 labels.volume.name, self.volume.volume.name
             ))),

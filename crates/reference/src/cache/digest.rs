@@ -1,6 +1,7 @@
 //! A hash of everything a picture depends on.
 
 use crate::camera::{Camera, Projection};
+use crate::classification::{Classification, Labels};
 use crate::field::Sampling;
 use crate::gradient::GradientOperator;
 use crate::image::Rectangle;
@@ -9,10 +10,10 @@ use crate::reference::Reference;
 use crate::scene::{Method, Refinement, Scene};
 use crate::shading::{BlinnPhong, LightSpace};
 use glam::DVec3;
-use rayloom_volume::{Knot, TransferFunction, Volume};
+use rayloom_volume::{Knot, Label, LabelTable, TransferFunction, Volume};
 
 /// Raised whenever the same scene may come to another picture.
-const VERSION: u64 = 3;
+const VERSION: u64 = 4;
 
 /// The key of a picture of `scene`: equal for equal pictures, different for different ones but for chances of 2^-128.
 ///
@@ -73,6 +74,7 @@ fn gradient_id(gradient: GradientOperator) -> u64 {
         GradientOperator::Forward => 1,
         GradientOperator::Backward => 2,
         GradientOperator::CentralFourth => 3,
+        GradientOperator::Sobel => 4,
     }
 }
 
@@ -147,7 +149,24 @@ impl Digest {
         }
     }
 
-    fn classification(&mut self, function: &TransferFunction) {
+    fn classification(&mut self, classification: &Classification) {
+        match classification {
+            Classification::Function(function) => {
+                self.word(0);
+                self.function(function);
+            }
+            Classification::Labels(Labels { volume, table: LabelTable { labels } }) => {
+                self.words([1, labels.len() as u64]);
+                for (label, Label { name: _, transfer_function }) in labels {
+                    self.word(u64::from(*label));
+                    self.function(transfer_function);
+                }
+                self.volume(volume, 0);
+            }
+        }
+    }
+
+    fn function(&mut self, function: &TransferFunction) {
         self.word(function.knots.len() as u64);
         for knot in &function.knots {
             let Knot { at, color: _, opacity: _, right: _ } = knot;

@@ -4,6 +4,7 @@ use super::bernstein::Bernstein;
 use crate::field::{Field, Sampling};
 use crate::ray::Segment;
 use crate::spline;
+use glam::UVec3;
 
 /// The cuts between cells, in voxels from the first voxel centre.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,16 +35,22 @@ impl Cell {
     }
 }
 
+/// Cuts closer together, in shares of the way, are one: rounding decides which of them comes first, and what lies between them
+/// would be a cell with the field of one side and the label of the other.
+const ONE_CUT: f64 = 1e-14;
+
 /// The cells of a ray from front to back. They cover it without gap or overlap.
 pub(super) struct Cells<'a> {
     field: &'a Field,
     segment: Segment,
     axes: [Axis; 3],
+    /// The walk through the voxels of another grid, at whose faces cells end, too.
+    faces: Option<[Axis; 3]>,
     /// Where the next cell begins.
     from: f64,
 }
 
-/// The walk along one axis, in index coordinates.
+/// The walk along one axis, in voxels from the first of the cuts.
 #[derive(Debug, Clone, Copy)]
 struct Axis {
     start: f64,
@@ -52,8 +59,6 @@ struct Axis {
     pitch: f64,
     /// The cut below the current cell, counted in pitches.
     slab: i64,
-    /// Index coordinate of the last voxel centre.
-    last: f64,
 }
 
 /// Where a cell lies along one axis: from `offsets[0]` to `offsets[1]` voxels past voxel `base`.
@@ -69,9 +74,31 @@ impl<'a> Cells<'a> {
         let half = cuts == Cuts::HalfVoxels || field.sampling() == Sampling::Nearest;
         let pitch = if half { 0.5 } else { 1.0 };
         let (entry, exit) = (field.texture_to_index(segment.entry), field.texture_to_index(segment.exit));
-        let last = field.last_center();
-        let axes = [0, 1, 2].map(|axis| Axis::new(entry[axis], (exit - entry)[axis], pitch, last[axis]));
-        Self { field, segment: *segment, axes, from: 0.0 }
+        let axes = [0, 1, 2].map(|axis| Axis::new(entry[axis], (exit - entry)[axis], pitch));
+        Self { field, segment: *segment, axes, faces: None, from: 0.0 }
+    }
+
+    /// Cells that end at the faces between `dims` voxels as well, if there are any.
+    pub(super) fn cut_at_faces(mut self, dims: Option<UVec3>) -> Self {
+        self.faces = dims.map(|dims| {
+            let [entry, exit] = [self.segment.entry, self.segment.exit].map(|end| end * dims.as_dvec3());
+            [0, 1, 2].map(|axis| Axis::new(entry[axis], (exit - entry)[axis], 1.0))
+        });
+        self
+    }
+
+    /// The walks along all axes of all grids.
+    fn walks(&mut self) -> impl Iterator<Item = &mut Axis> {
+        self.axes.iter_mut().chain(self.faces.iter_mut().flatten())
+    }
+
+    /// The end of the cell that begins at `from`: the next cut, or the last of those that are one with it. Passes it.
+    fn pass_cut(&mut self) -> f64 {
+        let next = self.walks().map(|axis| axis.next_cut()).fold(1.0, f64::min) + ONE_CUT;
+        let end = if next >= 1.0 { 1.0 } else { f64::NEG_INFINITY };
+        let to = self.walks().map(|axis| axis.next_cut()).filter(|&cut| cut <= next).fold(end, f64::max).min(1.0);
+        self.walks().filter(|axis| axis.next_cut() <= to).for_each(Axis::advance);
+        to
     }
 }
 
@@ -80,32 +107,28 @@ impl Iterator for Cells<'_> {
 
     fn next(&mut self) -> Option<Cell> {
         while self.from < 1.0 {
-            let from = self.from;
-            let next = self.axes.map(|axis| axis.next_cut());
-            let to = next.into_iter().fold(1.0, f64::min).max(from);
-            let spans = self.axes.map(|axis| axis.span(from, to));
-            for (axis, cut) in self.axes.iter_mut().zip(next) {
-                if cut <= to {
-                    axis.advance();
-                }
+            let (from, axes) = (self.from, self.axes);
+            let to = self.pass_cut();
+            if to <= from + ONE_CUT && to < 1.0 {
+                continue;
             }
             self.from = to;
-            if to > from {
-                let is_gap = self.field.in_gap(self.segment.at(0.5 * (from + to)));
-                return Some(Cell { from, to, values: polynomial(self.field, spans), is_gap });
-            }
+            let last = self.field.last_center();
+            let spans = [0, 1, 2].map(|axis| axes[axis].span(from, to, last[axis]));
+            let is_gap = self.field.in_gap(self.segment.at(0.5 * (from + to)));
+            return Some(Cell { from, to, values: polynomial(self.field, spans), is_gap });
         }
         None
     }
 }
 
 impl Axis {
-    fn new(start: f64, speed: f64, pitch: f64, last: f64) -> Self {
+    fn new(start: f64, speed: f64, pitch: f64) -> Self {
         let place = start / pitch;
         let slab = place.floor();
         // A ray that begins on a cut and runs down begins below it.
         let below = speed < 0.0 && place == slab;
-        Self { start, speed, pitch, slab: slab as i64 - i64::from(below), last }
+        Self { start, speed, pitch, slab: slab as i64 - i64::from(below) }
     }
 
     /// Fraction of the ray at which the current slab is left; infinite for a ray along its faces.
@@ -118,13 +141,14 @@ impl Axis {
         self.slab += if self.speed > 0.0 { 1 } else { -1 };
     }
 
-    fn span(&self, from: f64, to: f64) -> Span {
+    /// Where a cell lies among voxels of which the `last` has its centre at that index coordinate.
+    fn span(&self, from: f64, to: f64, last: f64) -> Span {
         let low = self.slab as f64 * self.pitch;
         if low < 0.0 {
             return Span { base: 0, offsets: [0.0; 2] };
         }
-        if low >= self.last {
-            return Span { base: self.last as i32, offsets: [0.0; 2] };
+        if low >= last {
+            return Span { base: last as i32, offsets: [0.0; 2] };
         }
         let base = low.floor();
         let offset = |u: f64| (self.start + self.speed * u).clamp(low, low + self.pitch) - base;

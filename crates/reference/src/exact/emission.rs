@@ -22,16 +22,17 @@ struct Piece {
 
 impl Renderer<'_> {
     pub(super) fn emission(&self, passage: &Passage) -> PixelResult {
-        let scene = self.prepared.scene;
+        let (scene, functions) = (self.prepared.scene, &self.prepared.functions);
         // Light bends where gradients do: one-sided differences turn to the other side half a voxel before the edge.
         let turns = matches!(scene.gradient, GradientOperator::Forward | GradientOperator::Backward);
         let cuts = if scene.shading.is_some() && turns { Cuts::HalfVoxels } else { Cuts::Centers };
         let mut total = Stretch::default();
         let mut first = None;
         let mut pieces = Vec::new();
-        for cell in Cells::new(&self.prepared.field, &passage.segment, cuts).filter(|cell| !cell.is_gap) {
+        let cells = Cells::new(&self.prepared.field, &passage.segment, cuts).cut_at_faces(functions.faces());
+        for cell in cells.filter(|cell| !cell.is_gap) {
             pieces.clear();
-            split(&cell, &scene.classification, &mut pieces);
+            split(&cell, functions.at(passage.segment.at(cell.fraction(0.5))), &mut pieces);
             for piece in &pieces {
                 first.get_or_insert_with(|| cell.fraction(piece.from));
                 total = total.then(&self.stretch(passage, &cell, piece, total.transmittance()));

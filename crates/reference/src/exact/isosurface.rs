@@ -13,8 +13,9 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 impl Renderer<'_> {
     pub(super) fn isosurface(&self, passage: &Passage, isovalue: f64) -> PixelResult {
         let Some(fraction) = self.crossing(passage, isovalue) else { return PixelResult::NOTHING };
-        let color = self.prepared.scene.classification.evaluate(isovalue).color;
-        let [r, g, b] = self.prepared.lit(color, passage.segment.at(fraction), &passage.ray);
+        let texture = passage.segment.at(fraction);
+        let color = self.prepared.functions.at(texture).evaluate(isovalue).color;
+        let [r, g, b] = self.prepared.lit(color, texture, &passage.ray);
         PixelResult { color: [r, g, b, 1.0], depth: passage.segment.parameter_at(fraction) }
     }
 

@@ -4,9 +4,9 @@
 //! degree for the splines. It is taken in Bernstein form from the voxels, not fitted to samples, and its roots and turning
 //! points are isolated, so that no crossing is missed:
 //!
-//! - [`Method::Dvr`] is cut where the field passes a knot of the transfer function. A piece of constant material has a closed
-//!   form; on the others the extinction is the logarithm of a polynomial, and optical depth and colour are integrated by
-//!   collocation of order 16, halved until both are right to [`TOLERANCE`] ([`LIT_TOLERANCE`] under lighting).
+//! - [`Method::Dvr`] is cut where labels change and where the field passes a knot of the transfer function. A piece of constant
+//!   material has a closed form; on the others the extinction is the logarithm of a polynomial, and optical depth and colour
+//!   are integrated by collocation of order 16, halved until both are right to [`TOLERANCE`] ([`LIT_TOLERANCE`] under lighting).
 //! - [`Method::Mip`] and [`Method::MinIp`] look at turning points and ends of cells, [`Method::Mean`] and [`Method::Sum`] at
 //!   the mean of coefficients.
 //! - [`Method::Isosurface`] takes the first root; a ray that touches the surface from outside meets it.

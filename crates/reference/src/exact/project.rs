@@ -25,7 +25,7 @@ impl Renderer<'_> {
             }
             _ => (mean(), 0.0),
         };
-        let material = self.prepared.scene.classification.evaluate(value);
+        let material = self.prepared.functions.at(passage.segment.at(fraction)).evaluate(value);
         let [r, g, b] = material.color.map(|c| c * material.opacity);
         PixelResult { color: [r, g, b, material.opacity], depth: passage.segment.parameter_at(fraction) }
     }

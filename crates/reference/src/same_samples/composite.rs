@@ -10,7 +10,8 @@ impl Renderer<'_> {
         let mut result = PixelResult::NOTHING;
         for sample in self.samples(path) {
             let texture = path.texture(sample.position);
-            let material = self.prepared.scene.classification.evaluate(self.prepared.field.at_texture(texture));
+            let function = self.prepared.functions.at(texture);
+            let material = function.evaluate(self.prepared.field.at_texture(texture));
             if material.opacity <= 0.0 {
                 continue;
             }

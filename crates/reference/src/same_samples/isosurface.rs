@@ -20,8 +20,9 @@ impl Point {
 impl Renderer<'_> {
     pub(super) fn isosurface(&self, path: &Path, isovalue: f64, refinement: Refinement) -> PixelResult {
         let Some(position) = self.crossing(path, isovalue, refinement) else { return PixelResult::NOTHING };
-        let color = self.prepared.scene.classification.evaluate(isovalue).color;
-        let [r, g, b] = self.prepared.lit(color, path.texture(position), &path.ray);
+        let texture = path.texture(position);
+        let color = self.prepared.functions.at(texture).evaluate(isovalue).color;
+        let [r, g, b] = self.prepared.lit(color, texture, &path.ray);
         PixelResult { color: [r, g, b, 1.0], depth: path.depth(position) }
     }
 

@@ -20,7 +20,7 @@ impl Renderer<'_> {
             }
             _ => (self.integral(path, |value| value) / covered, 0.0),
         };
-        let material = self.prepared.scene.classification.evaluate(value);
+        let material = self.prepared.functions.at(path.texture(position)).evaluate(value);
         let [r, g, b] = material.color.map(|c| c * material.opacity);
         PixelResult { color: [r, g, b, material.opacity], depth: path.depth(position) }
     }

@@ -3,9 +3,12 @@
 use crate::scenes::*;
 use glam::DVec3;
 use rayloom_reference::shading::BlinnPhong;
-use rayloom_reference::{Cache, Camera, Image, Method, Rectangle, Reference, Refinement, Scene, Source, unattended};
-use rayloom_volume::Volume;
+use rayloom_reference::{
+    Cache, Camera, Classification, Image, Labels, Method, Rectangle, Reference, Refinement, Scene, Source, unattended,
+};
+use rayloom_volume::{Label, LabelTable, TransferFunction, Volume};
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 fn noisy() -> Volume {
     volume([5, 4, 3], filling([5, 4, 3], DVec3::ZERO, DVec3::ONE), noise)
@@ -75,10 +78,17 @@ fn whatever_changes_a_picture_changes_its_file() {
     let mut moved = noisy();
     moved.index_to_world.translation.x += 1e-12;
     let other = self::volume([5, 4, 3], volume.index_to_world, |p| noise(p) + if p.x < 0.2 { 1e-15 } else { 0.0 });
+    let mut fainter = colorful();
+    fainter.knots[1].opacity = 0.31;
     let change = |change: &dyn Fn(&mut Scene<'_>)| {
         let mut changed = scene(&volume);
         change(&mut changed);
         changed
+    };
+    let by_labels = |dims, number, transfer_function: TransferFunction| {
+        let volume = Arc::new(self::volume(dims, volume.index_to_world, |p| (3.0 * p.x).floor()));
+        let label = Label { name: "a name does not matter".to_owned(), transfer_function };
+        Classification::Labels(Labels { volume, table: LabelTable { labels: [(number, label)].into() } })
     };
     let surface = |value, refinement| Method::Isosurface { value, refinement };
     let scenes = [
@@ -93,7 +103,11 @@ fn whatever_changes_a_picture_changes_its_file() {
         change(&|scene| scene.method = Method::Mean),
         change(&|scene| scene.method = surface(0.5, Refinement::None)),
         change(&|scene| scene.method = surface(0.6, Refinement::None)),
-        change(&|scene| scene.classification.knots[1].opacity = 0.31),
+        change(&|scene| scene.classification = fainter.clone().into()),
+        change(&|scene| scene.classification = by_labels([5, 4, 3], 1, fainter.clone())),
+        change(&|scene| scene.classification = by_labels([5, 4, 3], 2, fainter.clone())),
+        change(&|scene| scene.classification = by_labels([5, 4, 3], 1, colorful())),
+        change(&|scene| scene.classification = by_labels([5, 3, 4], 1, colorful())),
         change(&|scene| scene.shading = Some(BlinnPhong::default())),
         change(&|scene| scene.shading = Some(BlinnPhong { two_sided: false, ..BlinnPhong::default() })),
     ];

@@ -53,17 +53,20 @@ fn opaque_stays_opaque_at_any_rate() {
 fn constant_color_identities_hold_for_noise() {
     let volume = volume([9, 7, 5], filling([9, 7, 5], DVec3::NEG_ONE, DVec3::ONE), noise);
     let color = [0.9, 0.5, 0.1];
-    let mut classification = colorful();
-    classification.knots.iter_mut().for_each(|knot| knot.color = color);
+    let painted = |color| {
+        let mut function = colorful();
+        function.knots.iter_mut().for_each(|knot| knot.color = color);
+        function
+    };
     let camera = Camera::perspective(DVec3::new(2.0, 1.5, 3.0), DVec3::ZERO, 50.0);
-    let mut scene = Scene::new(&volume, classification, camera, [16, 12]);
+    let mut scene = Scene::new(&volume, painted(color), camera, [16, 12]);
     for rate in [0.3, 1.7] {
         scene.rate = rate;
         for &pixel in &render(&scene).expect("the scene makes sense").color {
             assert!(constant_color_residual(pixel, color) < 1e-15);
         }
     }
-    scene.classification.knots.iter_mut().for_each(|knot| knot.color = [1.0; 3]);
+    scene.classification = painted([1.0; 3]).into();
     let furnace = render(&scene).expect("the scene makes sense");
     assert!(furnace.color.iter().all(|&pixel| furnace_residual(pixel) == 0.0));
     assert!(furnace.color.iter().any(|pixel| pixel[3] > 0.3));
@@ -148,7 +151,7 @@ fn gaussian_blob_converges_with_order_two() {
         let mut scene = Scene::new(&volume, following(0.0, 2.0, |s| (1.0, s)), camera, [1, 1]);
         scene.rate = 2.0;
         opacity_errors.push((render(&scene).expect("the scene makes sense").pixel(0, 0)[3] - exact).abs());
-        (scene.method, scene.classification) = (Method::Mip, readable(0.0, 2.0));
+        (scene.method, scene.classification) = (Method::Mip, readable(0.0, 2.0).into());
         let found = 2.0 * render(&scene).expect("the scene makes sense").pixel(0, 0)[0];
         assert!(found <= gaussian_blob_maximum(2.0, 0.1, 0.0));
         peak_errors.push((found - peak).abs());

@@ -156,7 +156,9 @@ fn identities_hold_for_noise() {
     let volume = noisy();
     let mut scene = noisy_scene(&volume);
     let color = [0.9, 0.5, 0.1];
-    scene.classification.knots.iter_mut().for_each(|knot| knot.color = color);
+    let mut function = colorful();
+    function.knots.iter_mut().for_each(|knot| knot.color = color);
+    scene.classification = function.into();
     let image = exact::render(&scene).expect("the scene makes sense");
     assert!(image.color.iter().all(|&pixel| constant_color_residual(pixel, color) < 1e-14));
     assert!(image.color.iter().any(|pixel| pixel[3] > 0.3));
@@ -178,7 +180,12 @@ fn samples_converge_to_the_exact_picture() {
         (Method::Isosurface { value: 0.6, refinement }, Some(lit), 2e-3),
     ];
     for (method, shading, tolerance) in methods {
-        for gradient in [GradientOperator::Central, GradientOperator::Forward, GradientOperator::CentralFourth] {
+        for gradient in [
+            GradientOperator::Central,
+            GradientOperator::Forward,
+            GradientOperator::CentralFourth,
+            GradientOperator::Sobel,
+        ] {
             let mut scene = noisy_scene(&volume);
             (scene.method, scene.shading, scene.gradient, scene.rate) = (method, shading, gradient, 100.0);
             let expected = exact::render(&scene).expect("the scene makes sense");

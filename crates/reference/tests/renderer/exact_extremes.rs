@@ -201,7 +201,7 @@ fn gaps_are_left_out() {
     assert!((pixel(&scene)[3] - homogeneous_opacity(2.0, 4.0 / 6.0)).abs() < 1e-14);
     // Cells cover 0.25 for one and a half voxels, a ramp for one and 0.75 for one and a half.
     let knots = vec![Knot::new(0.0, [0.0; 3], 0.5), Knot::new(1.0, [1.0; 3], 0.5)];
-    (scene.method, scene.classification) = (Method::Mean, TransferFunction { knots });
+    (scene.method, scene.classification) = (Method::Mean, TransferFunction { knots }.into());
     assert!((pixel(&scene)[0] / pixel(&scene)[3] - 0.5).abs() < 1e-14);
     scene.rate = 6000.0;
     let sampled = same_samples::render(&scene).expect("the scene makes sense").pixel(0, 0);
@@ -232,7 +232,7 @@ fn broken_voxels_and_empty_functions() {
             (scene.method, scene.shading) = (method, shading);
             let image = exact::render(&scene).expect("the scene makes sense");
             assert!(image.color.iter().flatten().all(|c| c.is_finite()));
-            scene.classification = TransferFunction::default();
+            scene.classification = TransferFunction::default().into();
             let empty = exact::render(&scene).expect("the scene makes sense");
             let surface = matches!(method, Method::Isosurface { .. });
             assert!(surface || empty.color.iter().all(|pixel| *pixel == [0.0; 4]));

@@ -5,6 +5,7 @@ mod closed_forms;
 mod exact;
 mod exact_extremes;
 mod invariances;
+mod labels;
 mod march;
 mod ray_box;
 mod reconstruction;

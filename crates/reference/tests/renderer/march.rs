@@ -4,8 +4,9 @@ use crate::scenes::*;
 use glam::{DAffine3, DMat3, DVec3};
 use rayloom_reference::field::{Field, Sampling};
 use rayloom_reference::ray::AxisBox;
-use rayloom_reference::{Camera, Scene, exact};
-use rayloom_volume::{Knot, TransferFunction, Volume};
+use rayloom_reference::{Camera, Classification, Labels, Scene, exact};
+use rayloom_volume::{Knot, Label, LabelTable, TransferFunction, Volume};
+use std::sync::Arc;
 
 /// Small reproducible random numbers in 0..1.
 struct Random(u64);
@@ -55,6 +56,16 @@ fn transfer_function(random: &mut Random) -> TransferFunction {
     TransferFunction { knots }
 }
 
+/// A label for each voxel of a grid of its own, and transfer functions for some of them.
+fn labels(random: &mut Random) -> Labels {
+    let dims = [4, 9, 6];
+    let to_world = filling(dims, DVec3::ZERO, DVec3::ONE);
+    let volume = Arc::new(volume(dims, to_world, |p| (5.0 * noise(p)).floor()));
+    let label = |random: &mut Random| Label { name: String::new(), transfer_function: transfer_function(random) };
+    let labels = [0, 1, 3, 4, 9].map(|number| (number, label(random))).into();
+    Labels { volume, table: LabelTable { labels } }
+}
+
 /// Colour and optical depth of one ray, marched by midpoints.
 struct March<'a> {
     scene: &'a Scene<'a>,
@@ -74,10 +85,22 @@ impl March<'_> {
         self.field.at_texture(self.entry + self.span * fraction)
     }
 
+    /// The transfer function at a place; `None` for a label without one.
+    fn function(&self, fraction: f64) -> Option<&TransferFunction> {
+        match &self.scene.classification {
+            Classification::Function(function) => Some(function),
+            Classification::Labels(Labels { volume, table }) => {
+                let place = (self.entry + self.span * fraction) * volume.dims_f64();
+                let label = volume.value(place.floor().as_uvec3().to_array(), 0);
+                table.labels.get(&(label as u32)).map(|label| &label.transfer_function)
+            }
+        }
+    }
+
     /// Whether the transfer function is all but straight between two values: one piece, and little of it. A march without
     /// this much sense would need steps far below d/256 to see a jump or a spike in place.
-    fn is_straight(&self, a: f64, b: f64) -> bool {
-        let knots = &self.scene.classification.knots;
+    fn is_straight(&self, function: &TransferFunction, a: f64, b: f64) -> bool {
+        let knots = &function.knots;
         let piece = |value: f64| knots.partition_point(|knot| knot.at <= value);
         let next = piece(a);
         let bounded = next > 0 && next < knots.len();
@@ -87,12 +110,13 @@ impl March<'_> {
     /// One midpoint step; halved while the transfer function is not straight along it.
     fn step(&mut self, from: f64, to: f64, halvings: u32) {
         let middle = 0.5 * (from + to);
-        if halvings > 0 && !self.is_straight(self.value(from), self.value(to)) {
+        let Some(function) = self.function(middle) else { return };
+        if halvings > 0 && !self.is_straight(function, self.value(from), self.value(to)) {
             self.step(from, middle, halvings - 1);
             self.step(middle, to, halvings - 1);
             return;
         }
-        let material = self.scene.classification.evaluate(self.value(middle));
+        let material = function.evaluate(self.value(middle));
         let depth = -(-material.opacity).ln_1p() * (to - from) * self.length;
         let weight = (-self.depth).exp() * -(-depth).exp_m1();
         for (sum, c) in self.color.iter_mut().zip(material.color) {
@@ -102,7 +126,7 @@ impl March<'_> {
     }
 }
 
-/// The single pixel of a scene, marched in steps of a voxel over `rate` or less, which end where cells of the grid do.
+/// The single pixel of a scene, marched in steps of a voxel over `rate` or less, which end where cells of the grid and labels do.
 fn marched(scene: &Scene<'_>, rate: f64) -> [f64; 4] {
     let view = scene.camera.view(scene.size).expect("the camera makes sense");
     let to_world = scene.volume.texture_to_world();
@@ -113,6 +137,11 @@ fn marched(scene: &Scene<'_>, rate: f64) -> [f64; 4] {
     for axis in 0..3 {
         for voxel in 0..scene.volume.dims[axis] {
             cuts.push(((f64::from(voxel) + 0.5) / dims[axis] - segment.entry[axis]) / span[axis]);
+        }
+        if let Classification::Labels(Labels { volume, .. }) = &scene.classification {
+            for face in 1..volume.dims[axis] {
+                cuts.push((f64::from(face) / volume.dims_f64()[axis] - segment.entry[axis]) / span[axis]);
+            }
         }
     }
     cuts.retain(|cut| (0.0..=1.0).contains(cut));
@@ -146,14 +175,17 @@ fn extrapolated(scene: &Scene<'_>) -> [f64; 4] {
 }
 
 /// The largest difference over a few rays through random data.
-fn worst_of(scene_number: u64, sampling: Sampling, classification: &dyn Fn(&mut Random) -> TransferFunction) -> f64 {
+fn worst_of<C>(scene_number: u64, sampling: Sampling, classification: impl Fn(&mut Random) -> C) -> f64
+where
+    C: Into<Classification>,
+{
     let mut random = Random(scene_number);
     let dims = [9, 7, 8];
     let mut to_world = filling(dims, DVec3::NEG_ONE, DVec3::new(1.0, 0.8, 0.9));
     to_world.matrix3 *= DMat3::from_cols(DVec3::X, DVec3::new(random.within(-0.3, 0.3), 1.0, 0.1), DVec3::Z);
     let volume: Volume =
         volume(dims, DAffine3::from_mat3_translation(to_world.matrix3, to_world.translation), waves(&mut random));
-    let classification = classification(&mut random);
+    let classification = classification(&mut random).into();
     let center = volume.texture_to_world().transform_point3(DVec3::splat(0.5));
     (0..4)
         .map(|_| {
@@ -171,7 +203,15 @@ fn worst_of(scene_number: u64, sampling: Sampling, classification: &dyn Fn(&mut 
 
 #[test]
 fn twenty_random_scenes() {
-    let worst = (1..=20).map(|n| worst_of(n, Sampling::Trilinear, &transfer_function)).fold(0.0, f64::max);
+    let worst = (1..=20).map(|n| worst_of(n, Sampling::Trilinear, transfer_function)).fold(0.0, f64::max);
+    println!("worst difference {worst:e}");
+    assert!(worst < 1e-8, "{worst:e}");
+}
+
+#[test]
+fn random_labels() {
+    let of = |n| worst_of(n, Sampling::Trilinear, |random| Classification::Labels(labels(random)));
+    let worst = (31..=38).map(of).fold(0.0, f64::max);
     println!("worst difference {worst:e}");
     assert!(worst < 1e-8, "{worst:e}");
 }
@@ -183,7 +223,7 @@ fn smooth_transfer_functions() {
         TransferFunction { knots: vec![knot(-0.5), knot(1.5)] }
     };
     for sampling in [Sampling::Trilinear, Sampling::CatmullRom, Sampling::BSplinePrefiltered] {
-        let worst = (21..=26).map(|n| worst_of(n, sampling, &smooth)).fold(0.0, f64::max);
+        let worst = (21..=26).map(|n| worst_of(n, sampling, smooth)).fold(0.0, f64::max);
         println!("{sampling:?}: worst difference {worst:e}");
         assert!(worst < 1e-10, "{sampling:?}: {worst:e}");
     }
