@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use glam::DVec3;
 use rayloom_reference::field::Sampling;
 use rayloom_reference::gradient::GradientOperator;
-use rayloom_reference::shading::BlinnPhong;
+use rayloom_reference::shading::{Diffuse, Highlight, Shading};
 use rayloom_reference::{Camera, Comparison, Image, MISS, Method, Refinement, Scene, same_samples};
 use rayloom_tests::{Picture, VolumeFile, Workbench, root, tolerances::*};
 use rayloom_volume::{Knot, TransferFunction, Volume};
@@ -32,27 +32,55 @@ struct Look {
     name: &'static str,
     compositing: &'static str,
     method: fn(f64) -> Method,
-    shaded: bool,
+    shading: &'static str,
     jitter: Option<u32>,
     sampling: (&'static str, Sampling),
     gradient: (&'static str, GradientOperator),
 }
 
-const fn look(name: &'static str, compositing: &'static str, method: fn(f64) -> Method, shaded: bool) -> Look {
+const fn look(name: &'static str, compositing: &'static str, method: fn(f64) -> Method, shading: &'static str) -> Look {
     let sampling = ("filtered", Sampling::Trilinear);
-    Look { name, compositing, method, shaded, jitter: None, sampling, gradient: ("central", GradientOperator::Central) }
+    Look {
+        name,
+        compositing,
+        method,
+        shading,
+        jitter: None,
+        sampling,
+        gradient: ("central", GradientOperator::Central),
+    }
 }
 
 const LOOKS: [Look; 5] = [
-    look("dvr", "dvr", |_| Method::Dvr, false),
-    look("mip", "mip", |_| Method::Mip, false),
-    look("mean", "mean", |_| Method::Mean, false),
-    look("isosurface", "isosurface", surface, true),
-    look("shaded dvr", "dvr", |_| Method::Dvr, true),
+    look("dvr", "dvr", |_| Method::Dvr, "none"),
+    look("mip", "mip", |_| Method::Mip, "none"),
+    look("mean", "mean", |_| Method::Mean, "none"),
+    look("isosurface", "isosurface", surface, "blinn_phong"),
+    look("shaded dvr", "dvr", |_| Method::Dvr, "blinn_phong"),
 ];
 
 fn surface(value: f64) -> Method {
     Method::Isosurface { value, refinement: Refinement::Bisection(8) }
+}
+
+/// A snippet with its parameters at their defaults.
+fn shading(snippet: &str) -> Option<Shading> {
+    let matt = |diffuse_term| Shading { diffuse_term, specular: 0.0, ..Shading::default() };
+    let shiny = |specular, highlight| Shading { diffuse: 0.7, specular, highlight, ..Shading::default() };
+    let blinn = Highlight::BlinnPhong { shininess: 32.0 };
+    let of_snippet = match snippet {
+        "none" => return None,
+        "diffuse" => matt(Diffuse::Lambert),
+        "oren_nayar" => matt(Diffuse::OrenNayar { roughness: 0.5 }),
+        "toon" => matt(Diffuse::Toon { steps: 3 }),
+        "specular" => Shading { diffuse: 0.0, ..shiny(0.8, blinn) },
+        "blinn_phong" => shiny(0.3, blinn),
+        "phong" => shiny(0.3, Highlight::Phong { shininess: 16.0 }),
+        "cook_torrance" => shiny(0.6, Highlight::CookTorrance { roughness: 0.3, reflectance: 0.2 }),
+        "ward" => shiny(0.3, Highlight::Ward { along: 0.2, across: 0.4 }),
+        other => panic!("the reference has no shading {other}"),
+    };
+    Some(Shading { gradient_fade: 0.002, ..of_snippet })
 }
 
 fn function(knots: &[(f64, [f64; 3], f64)]) -> TransferFunction {
@@ -111,10 +139,9 @@ impl Subject {
             "isosurface" => function(&[(0.0, SURFACE, 1.0)]),
             _ => self.function(look, volume),
         };
-        let shading = BlinnPhong { diffuse: 0.7, gradient_fade: 0.002, ..BlinnPhong::default() };
         Scene {
             method: (look.method)(self.isovalue),
-            shading: look.shaded.then_some(shading),
+            shading: shading(look.shading),
             jitter: look.jitter,
             sampling: look.sampling.1,
             gradient: look.gradient.1,
@@ -135,7 +162,7 @@ impl Subject {
         self.bench.look(camera).classify(&function);
         self.bench.put("traversal.sampling", json!(look.sampling.0));
         self.bench.put("traversal.gradient", json!(look.gradient.0));
-        self.bench.put("traversal.shading", json!(if look.shaded { "blinn_phong" } else { "none" }));
+        self.bench.put("traversal.shading", json!(look.shading));
         self.bench.put("traversal.compositing", json!(look.compositing));
         self.bench.put("traversal.jitter", json!(look.jitter.is_some()));
         self.bench.put("traversal.jitter_seed", json!(look.jitter.unwrap_or(0)));
@@ -293,9 +320,9 @@ fn highlights_end_where_the_light_does() {
     subject.bench.put("traversal.shading.shininess", json!(2)).put("traversal.shading.specular", json!(1));
     let found = subject.bench.render(SIZE);
     let mut scene = subject.scene(LOOKS[3], above.1, &volume);
-    scene.shading = scene.shading.map(|shading| BlinnPhong {
+    scene.shading = scene.shading.map(|shading| Shading {
         light_direction: DVec3::new(0.9, 0.3, -0.5),
-        shininess: 2.0,
+        highlight: Highlight::BlinnPhong { shininess: 2.0 },
         specular: 1.0,
         ..shading
     });
@@ -304,6 +331,17 @@ fn highlights_end_where_the_light_does() {
     let share = comparison.share_within(AGREEMENT_PIXEL);
     println!("light from behind: {:.3} % of the pixels agree", 100.0 * share);
     assert!(share >= AGREEMENT_SHARE, "{share}");
+}
+
+#[test]
+fn every_shading() {
+    let mut subject = Subject::ball();
+    let volume = subject.bench.volume();
+    let [above, below, ..] = views(&volume);
+    for shading in ["diffuse", "oren_nayar", "toon", "specular", "phong", "cook_torrance", "ward"] {
+        subject.judge(Look { shading, name: shading, ..LOOKS[3] }, &above);
+        subject.judge(Look { shading, name: shading, ..LOOKS[4] }, &below);
+    }
 }
 
 #[test]

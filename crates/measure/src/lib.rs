@@ -17,6 +17,7 @@ mod errors;
 mod estimate;
 mod figures;
 mod ladder;
+mod lighting;
 mod measurements;
 mod output;
 pub mod pareto;

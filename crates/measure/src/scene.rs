@@ -3,16 +3,17 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use rayloom_network::{self as network, LightSpace, Network, Properties};
+use rayloom_network::{self as network, Network, Properties};
 use rayloom_processors::{Data, Mesh, View, same_box};
 use rayloom_reference::field::Sampling;
 use rayloom_reference::gradient::GradientOperator;
 use rayloom_reference::ray::AxisBox;
-use rayloom_reference::shading::{self, BlinnPhong};
+use rayloom_reference::shading::Shading;
 use rayloom_reference::{Camera, Classification, Labels, Method, Projection, Reference, Refinement, Scene};
 use rayloom_volume::{Knot, TransferFunction, Volume, VolumeRole};
 
 use crate::chain::Chain;
+use crate::lighting::{gradient, shading};
 use crate::{MeasureError, Refusal};
 
 /// What a ray traversal shows, in the words of the reference; it keeps the volume.
@@ -30,16 +31,16 @@ pub struct Subject {
     reference_length: f64,
     method: Method,
     classification: Classification,
-    shading: Option<BlinnPhong>,
+    shading: Option<Shading>,
     gradient: GradientOperator,
     early_termination: Option<f64>,
     /// Why the samples of the device cannot be retraced, if they cannot.
     own_samples: Option<Refusal>,
 }
 
-type Refusable<T> = Result<T, MeasureError>;
+pub(crate) type Refusable<T> = Result<T, MeasureError>;
 
-fn refuse<T>(why: impl Into<String>) -> Refusable<T> {
+pub(crate) fn refuse<T>(why: impl Into<String>) -> Refusable<T> {
     Err(Refusal(why.into()).into())
 }
 
@@ -245,71 +246,6 @@ fn check_box(volume: &Volume, classification: &Classification) -> Refusable<()> 
             refuse("the labels and the volume fill different boxes in the world; use labels of the same scan")
         }
         _ => Ok(()),
-    }
-}
-
-fn shading(properties: &Properties, method: Method) -> Refusable<Option<BlinnPhong>> {
-    let id = properties.text("shading")?;
-    if id == "none" || matches!(method, Method::Mean | Method::Sum) {
-        return Ok(None);
-    }
-    if matches!(method, Method::Mip | Method::MinIp) {
-        return refuse(format!("it does not light the extremes of rays, and the shading is `{id}`; choose none"));
-    }
-    let parameter = |name: &str| properties.f64(&format!("shading.{name}"));
-    let specular = match id {
-        "blinn_phong" => (parameter("specular")?, parameter("shininess")?),
-        "diffuse" => (0.0, 1.0),
-        other => {
-            return refuse(format!(
-                "the shading `{other}` has no counterpart there; it knows none, diffuse and blinn_phong"
-            ));
-        }
-    };
-    let light = properties.light("light")?;
-    Ok(Some(BlinnPhong {
-        ambient: parameter("ambient")?,
-        diffuse: parameter("diffuse")?,
-        specular: specular.0,
-        shininess: specular.1,
-        light_direction: light.direction.into(),
-        light_space: match light.space {
-            LightSpace::Camera => shading::LightSpace::Camera,
-            LightSpace::World => shading::LightSpace::World,
-        },
-        light_color: light.color,
-        two_sided: properties.bool("two_sided")?,
-        gradient_fade: properties.f64("gradient_fade")?,
-    }))
-}
-
-fn gradient(properties: &Properties, network: &Network, chain: &Chain) -> Refusable<GradientOperator> {
-    Ok(match properties.text("gradient")? {
-        "central" => GradientOperator::Central,
-        "forward" => GradientOperator::Forward,
-        "backward" => GradientOperator::Backward,
-        "central4" => GradientOperator::CentralFourth,
-        "sobel" => GradientOperator::Sobel,
-        "precomputed" => return precomputed(properties, network, chain),
-        other => {
-            return refuse(format!(
-                "the gradient `{other}` has no counterpart there; it knows central, forward, backward, central4 and sobel"
-            ));
-        }
-    })
-}
-
-/// Central differences of a field that is linear between voxels are those at the voxels, interpolated.
-fn precomputed(properties: &Properties, network: &Network, chain: &Chain) -> Refusable<GradientOperator> {
-    let operator = network.value(&chain.volume.processor, "operator");
-    let central = matches!(operator, Some(network::Value::Text(id)) if id == "central");
-    let linear = matches!(properties.text("sampling")?, "filtered" | "trilinear");
-    match central && linear {
-        true => Ok(GradientOperator::Central),
-        false => refuse(
-            "precomputed gradients have a counterpart there only if they are central differences of a linearly \
-             interpolated volume",
-        ),
     }
 }
 

@@ -5,7 +5,7 @@ use crate::classification::Classification;
 use crate::field::Sampling;
 use crate::gradient::GradientOperator;
 use crate::ray::AxisBox;
-use crate::shading::BlinnPhong;
+use crate::shading::Shading;
 use rayloom_volume::Volume;
 
 /// How an isosurface is located between the two samples that enclose it.
@@ -69,7 +69,7 @@ pub struct Scene<'a> {
     /// Colours and opacities; by labels for [`Method::Dvr`] only.
     pub classification: Classification,
     /// Lighting of [`Method::Dvr`] and [`Method::Isosurface`]; the others are never lit.
-    pub shading: Option<BlinnPhong>,
+    pub shading: Option<Shading>,
     /// How gradients for the lighting are taken.
     pub gradient: GradientOperator,
     /// Seed of the jitter of the sample lattice, see [`crate::same_samples::jitter`]; `None` for none.

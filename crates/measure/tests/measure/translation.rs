@@ -44,6 +44,12 @@ fn the_same_samples_agree_with_the_device() {
             ("traversal.shading", json!("diffuse")),
             ("traversal.light", json!({"space": "world", "direction": [1, -1, 0.5]})),
         ],
+        &[("traversal.shading", json!("toon")), ("traversal.shading.steps", json!(4))],
+        &[("traversal.shading", json!("oren_nayar")), ("traversal.shading.roughness", json!(0.8))],
+        &[("traversal.shading", json!("specular")), ("traversal.shading.shininess", json!(5))],
+        &[("traversal.shading", json!("phong")), ("traversal.shading.shininess", json!(5))],
+        &[("traversal.shading", json!("cook_torrance")), ("traversal.shading.reflectance", json!(0.6))],
+        &[("traversal.shading", json!("ward")), ("traversal.shading.across", json!(0.9))],
         &[
             ("traversal.compositing", json!("mip")),
             ("proxy.clip_x", json!([3, 17])),
@@ -155,7 +161,6 @@ fn what_the_reference_cannot_draw_is_refused_with_a_reason() {
     let lit = ("traversal.shading", json!("blinn_phong"));
     let cases: &[(&[(&str, Json)], &str)] = &[
         (&[("traversal.compositing", json!("mida"))], "the compositing `mida` has no counterpart there"),
-        (&[("traversal.shading", json!("toon"))], "the shading `toon` has no counterpart there"),
         (&[lit.clone(), ("traversal.gradient", json!("filtered"))], "the gradient `filtered` has no counterpart there"),
         (&[lit, ("traversal.compositing", json!("mip"))], "it does not light the extremes of rays"),
         (

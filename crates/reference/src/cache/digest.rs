@@ -8,7 +8,7 @@ use crate::image::Rectangle;
 use crate::ray::AxisBox;
 use crate::reference::Reference;
 use crate::scene::{Method, Refinement, Scene};
-use crate::shading::{BlinnPhong, LightSpace};
+use crate::shading::{Diffuse, Highlight, LightSpace, Shading};
 use glam::DVec3;
 use rayloom_volume::{Knot, Label, LabelTable, TransferFunction, Volume};
 
@@ -178,19 +178,33 @@ impl Digest {
         }
     }
 
-    fn shading(&mut self, shading: &BlinnPhong) {
-        let BlinnPhong {
+    fn shading(&mut self, shading: &Shading) {
+        let Shading {
             ambient,
             diffuse,
+            diffuse_term,
             specular,
-            shininess,
+            highlight,
             light_direction,
             light_space,
             light_color,
             two_sided,
             gradient_fade,
         } = shading;
-        self.numbers([*ambient, *diffuse, *specular, *shininess, *gradient_fade]);
+        self.numbers([*ambient, *diffuse, *specular, *gradient_fade]);
+        match *diffuse_term {
+            Diffuse::Lambert => self.word(0),
+            Diffuse::OrenNayar { roughness } => self.words([1, roughness.to_bits()]),
+            Diffuse::Toon { steps } => self.words([2, u64::from(steps)]),
+        }
+        match *highlight {
+            Highlight::BlinnPhong { shininess } => self.words([0, shininess.to_bits()]),
+            Highlight::Phong { shininess } => self.words([1, shininess.to_bits()]),
+            Highlight::CookTorrance { roughness, reflectance } => {
+                self.words([2, roughness.to_bits(), reflectance.to_bits()]);
+            }
+            Highlight::Ward { along, across } => self.words([3, along.to_bits(), across.to_bits()]),
+        }
         self.vectors(&[*light_direction]);
         self.numbers(*light_color);
         self.words([u64::from(*light_space == LightSpace::World), u64::from(*two_sided)]);

@@ -2,7 +2,7 @@
 
 use crate::scenes::*;
 use glam::DVec3;
-use rayloom_reference::shading::BlinnPhong;
+use rayloom_reference::shading::{Diffuse, Highlight, Shading};
 use rayloom_reference::{
     Cache, Camera, Classification, Image, Labels, Method, Rectangle, Reference, Refinement, Scene, Source, unattended,
 };
@@ -90,6 +90,10 @@ fn whatever_changes_a_picture_changes_its_file() {
         let label = Label { name: "a name does not matter".to_owned(), transfer_function };
         Classification::Labels(Labels { volume, table: LabelTable { labels: [(number, label)].into() } })
     };
+    let highlight = Shading::default().highlight;
+    let lit = |diffuse_term, highlight| {
+        change(&|scene| scene.shading = Some(Shading { diffuse_term, highlight, ..Shading::default() }))
+    };
     let surface = |value, refinement| Method::Isosurface { value, refinement };
     let scenes = [
         scene(&volume),
@@ -108,8 +112,14 @@ fn whatever_changes_a_picture_changes_its_file() {
         change(&|scene| scene.classification = by_labels([5, 4, 3], 2, fainter.clone())),
         change(&|scene| scene.classification = by_labels([5, 4, 3], 1, colorful())),
         change(&|scene| scene.classification = by_labels([5, 3, 4], 1, colorful())),
-        change(&|scene| scene.shading = Some(BlinnPhong::default())),
-        change(&|scene| scene.shading = Some(BlinnPhong { two_sided: false, ..BlinnPhong::default() })),
+        change(&|scene| scene.shading = Some(Shading::default())),
+        change(&|scene| scene.shading = Some(Shading { two_sided: false, ..Shading::default() })),
+        lit(Diffuse::Toon { steps: 3 }, highlight),
+        lit(Diffuse::Toon { steps: 4 }, highlight),
+        lit(Diffuse::OrenNayar { roughness: 0.5 }, highlight),
+        lit(Diffuse::Lambert, Highlight::Phong { shininess: 32.0 }),
+        lit(Diffuse::Lambert, Highlight::CookTorrance { roughness: 0.3, reflectance: 0.2 }),
+        lit(Diffuse::Lambert, Highlight::Ward { along: 0.3, across: 0.2 }),
     ];
     for reference in Reference::ALL {
         let paths: BTreeSet<_> = scenes.iter().map(|scene| cache.path(reference, scene, None)).collect();

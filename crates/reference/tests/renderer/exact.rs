@@ -5,7 +5,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use rayloom_reference::closed_forms::*;
 use rayloom_reference::gradient::GradientOperator;
 use rayloom_reference::ray::AxisBox;
-use rayloom_reference::shading::BlinnPhong;
+use rayloom_reference::shading::{Diffuse, Highlight, LightSpace, Shading};
 use rayloom_reference::{Camera, Comparison, MISS, Method, Refinement, Scene, exact, same_samples};
 use rayloom_volume::{Knot, TransferFunction, Volume};
 
@@ -168,7 +168,7 @@ fn identities_hold_for_noise() {
 #[test]
 fn samples_converge_to_the_exact_picture() {
     let volume = noisy();
-    let lit = BlinnPhong { gradient_fade: 0.05, ..BlinnPhong::default() };
+    let lit = Shading { gradient_fade: 0.05, ..Shading::default() };
     let refinement = Refinement::Secant(8);
     let methods = [
         (Method::Dvr, None, 2e-4),
@@ -197,12 +197,68 @@ fn samples_converge_to_the_exact_picture() {
     }
 }
 
+/// Every diffuse term and every highlight. The light comes from aside: steps, kinks and the ends of light are all there.
+#[test]
+fn every_light_is_integrated() {
+    let volume = noisy();
+    let matt = |diffuse_term| Shading { diffuse_term, specular: 0.0, ..Shading::default() };
+    let shiny = |highlight| Shading { highlight, specular: 0.6, ..Shading::default() };
+    let lights = [
+        matt(Diffuse::OrenNayar { roughness: 0.5 }),
+        matt(Diffuse::Toon { steps: 3 }),
+        shiny(Highlight::Phong { shininess: 16.0 }),
+        shiny(Highlight::CookTorrance { roughness: 0.3, reflectance: 0.2 }),
+        shiny(Highlight::Ward { along: 0.2, across: 0.4 }),
+    ];
+    for light in lights {
+        for two_sided in [true, false] {
+            let light_direction = DVec3::new(0.9, 0.2, -0.1);
+            let mut scene = noisy_scene(&volume);
+            scene.shading = Some(Shading { two_sided, light_direction, gradient_fade: 0.02, ..light });
+            let found = exact::render(&scene).expect("the scene makes sense");
+            let error = |rate: f64| {
+                let scene = Scene { rate, ..scene.clone() };
+                let sampled = same_samples::render(&scene).expect("the scene makes sense");
+                Comparison::new(&sampled.color, &found.color).expect("pictures of one size").pixels.mean
+            };
+            let (coarse, fine) = (error(50.0), error(800.0));
+            println!("{light:?} {two_sided}: {coarse:.1e} {fine:.1e}");
+            // A jump costs half a step, and all of them are independent.
+            assert!(fine < 3e-5 && fine < coarse / 8.0, "{light:?} {two_sided}: {coarse:e} {fine:e}");
+        }
+    }
+}
+
+/// Normals that are all alike but for rounding, just where light steps or ends: not to be told apart by halving.
+#[test]
+fn rounding_does_not_step() {
+    let normal = DVec3::new(0.6, -0.3, 0.2).normalize();
+    let aside = normal.cross(DVec3::new(0.2, 0.9, 0.1)).normalize();
+    let volume = volume([6, 7, 5], filling([6, 7, 5], DVec3::NEG_ONE, DVec3::ONE), |p| 0.5 - 0.3 * normal.dot(p));
+    for cosine in [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0_f64] {
+        let light_direction = cosine * normal + (1.0 - cosine * cosine).sqrt() * aside;
+        let light = Shading { light_direction, light_space: LightSpace::World, ambient: 0.0, ..Shading::default() };
+        for two_sided in [true, false] {
+            let mut scene = noisy_scene(&volume);
+            scene.shading =
+                Some(Shading { diffuse_term: Diffuse::Toon { steps: 3 }, two_sided, specular: 0.0, ..light });
+            scene.classification = uniform([1.0; 3], 0.7).into();
+            for pixel in exact::render(&scene).expect("the scene makes sense").color {
+                assert!((pixel[0] - 0.8 * cosine * pixel[3]).abs() < 1e-9, "{cosine} {two_sided}: {pixel:?}");
+            }
+            let highlight = Highlight::BlinnPhong { shininess: 1.0 };
+            scene.shading = Some(Shading { two_sided, highlight, ..light });
+            assert!(exact::render(&scene).is_ok());
+        }
+    }
+}
+
 #[test]
 fn lit_integrals_are_right_to_a_billionth() {
     let volume = noisy();
     for two_sided in [true, false] {
         let mut scene = noisy_scene(&volume);
-        scene.shading = Some(BlinnPhong { two_sided, gradient_fade: 0.02, ..BlinnPhong::default() });
+        scene.shading = Some(Shading { two_sided, gradient_fade: 0.02, ..Shading::default() });
         scene.size = [1, 1];
         let expected = pixel(&scene);
         // Midpoints with steps so small that bends, jumps and knots cost less than the bound below.
@@ -223,7 +279,7 @@ fn lit_integrals_are_right_to_a_billionth() {
 #[test]
 fn front_over_back_is_the_whole() {
     let volume = noisy();
-    for shading in [None, Some(BlinnPhong { gradient_fade: 0.02, ..BlinnPhong::default() })] {
+    for shading in [None, Some(Shading { gradient_fade: 0.02, ..Shading::default() })] {
         let mut scene = noisy_scene(&volume);
         scene.shading = shading;
         let mut render = |clip| {

@@ -3,7 +3,7 @@
 use crate::scenes::*;
 use glam::{DAffine3, DMat3, DVec3};
 use rayloom_reference::closed_forms::*;
-use rayloom_reference::shading::BlinnPhong;
+use rayloom_reference::shading::Shading;
 use rayloom_reference::{Camera, MISS, Method, Refinement, Scene, exact, same_samples};
 use rayloom_volume::{Knot, TransferFunction, Volume, Voxels};
 
@@ -41,7 +41,7 @@ fn single_voxels() {
     scene.method = ALL[5];
     assert_eq!(pixel(&scene), [0.0; 4]);
     // Lit, a field without gradient is unlit.
-    (scene.method, scene.shading) = (Method::Dvr, Some(BlinnPhong::default()));
+    (scene.method, scene.shading) = (Method::Dvr, Some(Shading::default()));
     assert!((pixel(&scene)[0] - 0.5 * 0.4).abs() < 1e-15);
 }
 
@@ -81,7 +81,7 @@ fn opaque_material() {
     let found = pixel(&scene);
     assert!((found[0] - 0.25 - 0.75 / 0.5 / 1e6).abs() < 1e-11 && found[3] == 1.0, "{found:?}");
     // And its light is that of the front.
-    scene.shading = Some(BlinnPhong { diffuse: 0.0, specular: 0.0, ambient: 0.5, ..BlinnPhong::default() });
+    scene.shading = Some(Shading { diffuse: 0.0, specular: 0.0, ambient: 0.5, ..Shading::default() });
     assert!((pixel(&scene)[0] - 0.5 * found[0]).abs() < 1e-11);
 }
 
@@ -179,7 +179,7 @@ fn worlds_of_any_size() {
             let camera = Camera::perspective(scale * eye, scale * DVec3::splat(0.5), 30.0);
             let mut scene = Scene::new(&scaled, colorful(), camera, [6, 6]);
             (scene.method, scene.reference_length) = (method, 0.2 * scale);
-            scene.shading = Some(BlinnPhong::default());
+            scene.shading = Some(Shading::default());
             exact::render(&scene).expect("the scene makes sense")
         };
         let expected = render(1.0);
@@ -226,7 +226,7 @@ fn broken_voxels_and_empty_functions() {
         (0..27).map(|i| [0.2, f64::NAN, f64::INFINITY, 0.9, f64::NEG_INFINITY, 1e-310][i % 6]).collect();
     let volume = cube(&values, [3; 3]);
     for method in ALL {
-        for shading in [None, Some(BlinnPhong::default())] {
+        for shading in [None, Some(Shading::default())] {
             let camera = Camera::perspective(DVec3::new(2.0, 1.4, -1.8), DVec3::splat(0.5), 30.0);
             let mut scene = Scene::new(&volume, colorful(), camera, [8, 8]);
             (scene.method, scene.shading) = (method, shading);

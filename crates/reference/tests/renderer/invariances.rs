@@ -4,7 +4,7 @@ use crate::scenes::*;
 use glam::{DAffine3, DMat3, DVec3};
 use rayloom_reference::ray::AxisBox;
 use rayloom_reference::same_samples::{Renderer, render};
-use rayloom_reference::shading::BlinnPhong;
+use rayloom_reference::shading::Shading;
 use rayloom_reference::{Camera, Comparison, Image, MISS, Rectangle, Scene, unattended};
 use rayloom_volume::Volume;
 
@@ -21,7 +21,7 @@ fn camera() -> Camera {
 
 fn shaded<'a>(volume: &'a Volume, camera: Camera) -> Scene<'a> {
     let mut scene = Scene::new(volume, colorful(), camera, [24, 20]);
-    scene.shading = Some(BlinnPhong { gradient_fade: 0.05, ..BlinnPhong::default() });
+    scene.shading = Some(Shading { gradient_fade: 0.05, ..Shading::default() });
     (scene.reference_length, scene.rate) = (0.2, 1.3);
     scene
 }

@@ -4,9 +4,10 @@ use crate::scenes::*;
 use glam::{DMat3, DVec3};
 use rayloom_reference::closed_forms::{plane_hit, sphere_hit, sphere_normal};
 use rayloom_reference::same_samples::{Renderer, render};
-use rayloom_reference::shading::{BlinnPhong, LightSpace};
+use rayloom_reference::shading::{Diffuse, Highlight, LightSpace, Shading};
 use rayloom_reference::{Camera, MISS, Method, Refinement, Scene, surface_points};
 use rayloom_volume::Volume;
+use std::f64::consts::PI;
 
 const REFINEMENTS: [Refinement; 4] =
     [Refinement::None, Refinement::Linear, Refinement::Bisection(20), Refinement::Secant(6)];
@@ -93,11 +94,12 @@ fn lighting_of_a_plane_is_the_formula() {
     let volume = volume([8; 3], filling([8; 3], DVec3::NEG_ONE, DVec3::ONE), |p| p.x);
     let mut scene = isosurface(&volume, along_x(0.0, 0.0), 0.0, Refinement::Linear);
     scene.size = [1, 1];
-    let shading = BlinnPhong {
+    let shading = Shading {
         ambient: 0.1,
         diffuse: 0.7,
+        diffuse_term: Diffuse::Lambert,
         specular: 0.2,
-        shininess: 3.0,
+        highlight: Highlight::BlinnPhong { shininess: 3.0 },
         light_direction: DVec3::new(-3.0, 0.0, 4.0),
         light_space: LightSpace::World,
         light_color: [1.0, 0.5, 0.0],
@@ -115,10 +117,30 @@ fn lighting_of_a_plane_is_the_formula() {
     assert!(close(lit(shading), expected));
     // The same light fixed to the camera, whose x axis is +z and whose z axis is -x here.
     let camera_light =
-        BlinnPhong { light_direction: DVec3::new(4.0, 0.0, 3.0), light_space: LightSpace::Camera, ..shading };
+        Shading { light_direction: DVec3::new(4.0, 0.0, 3.0), light_space: LightSpace::Camera, ..shading };
     assert!(close(lit(camera_light), expected));
     // The range of two units less a voxel takes seven voxels: a fade of 1/7 lights by half.
-    let half = lit(BlinnPhong { gradient_fade: 1.0 / 7.0, ..shading });
+    let half = lit(Shading { gradient_fade: 1.0 / 7.0, ..shading });
     let unlit = [0.5, 1.0, 0.25, 1.0];
     assert!(close(half, [0, 1, 2, 3].map(|i| 0.5 * (expected[i] + unlit[i]))));
+
+    // The other terms there, by hand, with a tangent of Ward's along -y and his other one along z.
+    let mut terms = |shading: Shading, diffuse: f64, highlight: f64| {
+        let light = [0, 1, 2].map(|i| shading.light_color[i] * (unlit[i] * 0.7 * diffuse + 0.2 * highlight));
+        let expected = [0, 1, 2].map(|i| 0.1 * unlit[i] + light[i]);
+        let found = lit(shading);
+        assert!(close(found, [expected[0], expected[1], expected[2], 1.0]), "{shading:?} {found:?} {expected:?}");
+    };
+    let diffuse = |diffuse_term| Shading { diffuse_term, specular: 0.0, ..shading };
+    for (steps, level) in [(1, 1.0), (3, 2.0 / 3.0), (5, 0.6)] {
+        terms(diffuse(Diffuse::Toon { steps }), level, 0.0);
+    }
+    terms(diffuse(Diffuse::OrenNayar { roughness: 0.5 }), 0.6 * (1.0 - 0.125 / 0.58), 0.0);
+    let shiny = |highlight| Shading { highlight, ..shading };
+    terms(shiny(Highlight::Phong { shininess: 4.0 }), 0.6, 0.6_f64.powi(4));
+    let facets = (-0.25 / 0.09_f64).exp() / (PI * 0.09 * 0.64);
+    let fresnel = 0.2 + 0.8 * (1.0 - 0.8_f64.sqrt()).powi(5);
+    terms(shiny(Highlight::CookTorrance { roughness: 0.3, reflectance: 0.2 }), 0.6, facets * fresnel / 4.0);
+    let gauss = (-0.25 / 0.16_f64).exp() / (4.0 * PI * 0.2 * 0.4);
+    terms(shiny(Highlight::Ward { along: 0.2, across: 0.4 }), 0.6, gauss * 0.6_f64.sqrt());
 }
