@@ -11,7 +11,7 @@ use crate::scene::{Refusable, refuse};
 /// The shading of a ray traversal; `None` for none.
 pub(crate) fn shading(properties: &Properties, method: Method) -> Refusable<Option<Shading>> {
     let id = properties.text("shading")?;
-    if id == "none" || matches!(method, Method::Mean | Method::Sum) {
+    if id == "none" || matches!(method, Method::Mean | Method::Sum | Method::FirstHit(_)) {
         return Ok(None);
     }
     if matches!(method, Method::Mip | Method::MinIp) {

@@ -9,7 +9,7 @@ use rayloom_reference::field::Sampling;
 use rayloom_reference::gradient::GradientOperator;
 use rayloom_reference::ray::AxisBox;
 use rayloom_reference::shading::Shading;
-use rayloom_reference::{Camera, Classification, Labels, Method, Projection, Reference, Refinement, Scene};
+use rayloom_reference::{Camera, Classification, FirstHit, Labels, Method, Projection, Reference, Refinement, Scene};
 use rayloom_volume::{Knot, TransferFunction, Volume, VolumeRole};
 
 use crate::chain::Chain;
@@ -75,9 +75,9 @@ impl Subject {
         let classification = classification(&properties, &chain.image.item, method, || volume_at(&chain.labels))?;
         check_box(&volume, &classification)?;
         let shading = shading(&properties, method)?;
-        let gradient = match shading {
-            Some(_) => gradient(&properties, network, chain)?,
-            None => GradientOperator::default(),
+        let gradient = match shading.is_some() || method == Method::FirstHit(FirstHit::Normal) {
+            true => gradient(&properties, network, chain)?,
+            false => GradientOperator::default(),
         };
         let error = properties.f64("termination_error")?;
         Ok(Self {
@@ -186,13 +186,17 @@ fn method(properties: &Properties, outport: &str) -> Refusable<Method> {
         "mean" => Method::Mean,
         "sum" if properties.f64(&format!("{slot}.gain"))? > 0.0 => Method::Sum,
         "sum" => return refuse("a sum with the gain 0 shows one value everywhere"),
+        "first_hit_depth" => Method::FirstHit(FirstHit::Depth),
+        "first_hit_point" => Method::FirstHit(FirstHit::Point),
+        "first_hit_normal" => Method::FirstHit(FirstHit::Normal),
         "isosurface" => {
             let value = properties.f64(&format!("{slot}.isovalue"))?;
             Method::Isosurface { value, refinement: refinement(properties)? }
         }
         other => {
             return refuse(format!(
-                "the compositing `{other}` has no counterpart there; it knows dvr, mip, minip, mean, sum and isosurface"
+                "the compositing `{other}` has no counterpart there; it knows dvr, mip, minip, mean, sum, isosurface and the \
+                 first hits"
             ));
         }
     })
@@ -230,10 +234,12 @@ fn classification(
             Ok(properties.transfer_function("transfer_function")?.clone().into())
         }
         "transfer_function_2d" => refuse("it knows no transfer functions over value and gradient"),
-        "labels" if method == Method::Dvr => {
+        "labels" if matches!(method, Method::Dvr | Method::FirstHit(_)) => {
             Ok(Classification::Labels(Labels { volume: labels()?, table: properties.labels("label_table")?.clone() }))
         }
-        "labels" => refuse("it classifies by labels in direct volume rendering only; choose the compositing dvr"),
+        "labels" => {
+            refuse("it classifies by labels in direct volume rendering and first hits only; choose the compositing dvr")
+        }
         other => refuse(format!(
             "the classification `{other}` has no counterpart there; it knows transfer functions of the value, and labels"
         )),

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use rayloom_network::{Address, Camera, Network, Value};
-use rayloom_reference::{Cache, Method, Reference, surface_points};
+use rayloom_reference::{Cache, FirstHit, Method, Reference, surface_points};
 use serde_json::{Value as Json, json};
 
 use crate::bench::Bench;
@@ -101,12 +101,13 @@ impl Yardstick<'_> {
         };
         let scene = subject.scene();
         let image = self.cache.render(reference, &scene, None, &progress)?.image;
-        let surface = match scene.method {
-            Method::Isosurface { .. } => {
-                Some(Surface { points: surface_points(&scene, &image)?, normals: scene.shading.is_some() })
-            }
+        let normals = match scene.method {
+            Method::Isosurface { .. } => Some(scene.shading.is_some()),
+            Method::FirstHit(told) => Some(told == FirstHit::Normal),
             _ => None,
         };
+        let surface = |normals| Ok::<_, MeasureError>(Surface { points: surface_points(&scene, &image)?, normals });
+        let surface = normals.map(surface).transpose()?;
         Ok(Expected { pixels: image.color, surface })
     }
 }

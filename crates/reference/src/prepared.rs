@@ -3,8 +3,9 @@
 use crate::camera::View;
 use crate::classification::Functions;
 use crate::field::Field;
+use crate::image::PixelResult;
 use crate::ray::{AxisBox, Ray, Segment};
-use crate::scene::{Method, Scene, SceneError};
+use crate::scene::{FirstHit, Method, Scene, SceneError};
 use glam::{DAffine3, DMat3, DVec3};
 
 /// A point of an isosurface.
@@ -84,6 +85,16 @@ impl<'a> Prepared<'a> {
     pub(crate) fn surface_seen(&self, x: u32, y: u32, depth: f64) -> SurfaceHit {
         let world = self.view.ray(x, y).at(depth);
         self.surface_at(self.world_to_texture.transform_point3(world), depth)
+    }
+
+    /// What is told of a hit at texture coordinates on a ray.
+    pub(crate) fn told(&self, told: FirstHit, texture: DVec3, depth: f64) -> PixelResult {
+        let [r, g, b] = match told {
+            FirstHit::Depth => [depth; 3],
+            FirstHit::Point => texture.to_array(),
+            FirstHit::Normal => (0.5 + 0.5 * self.normal(self.gradient(texture))).to_array(),
+        };
+        PixelResult { color: [r, g, b, 1.0], depth }
     }
 
     /// Straight `color` at texture coordinates, lit as the scene asks for.

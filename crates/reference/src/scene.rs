@@ -22,6 +22,17 @@ pub enum Refinement {
     Secant(u32),
 }
 
+/// What is told of the place where a ray first meets something visible.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FirstHit {
+    /// The view depth in world units, in all three colours.
+    Depth,
+    /// The texture coordinates.
+    Point,
+    /// The unit normal `n` in world space, towards smaller values, as `n / 2 + 1 / 2`; zero where the field is flat.
+    Normal,
+}
+
 /// What becomes of the samples of a ray.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Method {
@@ -43,6 +54,8 @@ pub enum Method {
         /// How the crossing is located.
         refinement: Refinement,
     },
+    /// The first place that is not transparent, opaque, with what is told of it as its colour. Depth: that place.
+    FirstHit(FirstHit),
 }
 
 /// A picture to render.
@@ -66,7 +79,7 @@ pub struct Scene<'a> {
     pub reference_length: f64,
     /// What becomes of the samples of a ray.
     pub method: Method,
-    /// Colours and opacities; by labels for [`Method::Dvr`] only.
+    /// Colours and opacities; by labels for [`Method::Dvr`] and [`Method::FirstHit`] only.
     pub classification: Classification,
     /// Lighting of [`Method::Dvr`] and [`Method::Isosurface`]; the others are never lit.
     pub shading: Option<Shading>,
@@ -124,7 +137,9 @@ impl<'a> Scene<'a> {
         {
             return Err(SceneError::Isovalue { found: value });
         }
-        if matches!(self.classification, Classification::Labels(_)) && self.method != Method::Dvr {
+        if matches!(self.classification, Classification::Labels(_))
+            && !matches!(self.method, Method::Dvr | Method::FirstHit(_))
+        {
             return Err(SceneError::Labels);
         }
         Ok(())
@@ -182,6 +197,8 @@ pub enum SceneError {
         found: f64,
     },
     /// One value of a whole ray has no label.
-    #[error("Only direct volume rendering looks at labels: choose it, or classify by a transfer function.")]
+    #[error(
+        "Only direct volume rendering and first hits look at labels: choose one of them, or classify by a transfer function."
+    )]
     Labels,
 }

@@ -56,6 +56,23 @@ fn the_same_samples_agree_with_the_device() {
             ("traversal.sampling", json!("catmull_rom")),
         ],
         &[("traversal.compositing", json!("sum")), ("traversal.compositing.gain", json!(0.5))],
+        &[
+            ("traversal.compositing", json!("first_hit_point")),
+            (
+                "traversal.transfer_function",
+                json!({"knots": [
+                {"at": 0.4, "color": [1, 1, 1], "opacity": 0, "right": {"color": [1, 1, 1], "opacity": 0.5}}]}),
+            ),
+        ],
+        &[
+            ("traversal.compositing", json!("first_hit_normal")),
+            ("traversal.gradient", json!("sobel")),
+            (
+                "traversal.transfer_function",
+                json!({"knots": [
+                {"at": 0.4, "color": [1, 1, 1], "opacity": 0, "right": {"color": [1, 1, 1], "opacity": 0.5}}]}),
+            ),
+        ],
         // Without labels of its own, the volume is one.
         &[
             ("traversal.classification", json!("labels")),
@@ -169,7 +186,7 @@ fn what_the_reference_cannot_draw_is_refused_with_a_reason() {
         ),
         (
             &[("traversal.classification", json!("labels")), ("traversal.compositing", json!("mean"))],
-            "it classifies by labels in direct volume rendering only",
+            "it classifies by labels in direct volume rendering and first hits only",
         ),
         (&[("clip.enabled", json!(true))], "the proxy geometry is not a box along the voxel axes"),
         (&[("traversal.sampling.text", json!("fn x() {}"))], "the slot `sampling` holds a text of your own"),

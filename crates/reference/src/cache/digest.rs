@@ -7,7 +7,7 @@ use crate::gradient::GradientOperator;
 use crate::image::Rectangle;
 use crate::ray::AxisBox;
 use crate::reference::Reference;
-use crate::scene::{Method, Refinement, Scene};
+use crate::scene::{FirstHit, Method, Refinement, Scene};
 use crate::shading::{Diffuse, Highlight, LightSpace, Shading};
 use glam::DVec3;
 use rayloom_volume::{Knot, Label, LabelTable, TransferFunction, Volume};
@@ -135,6 +135,14 @@ impl Digest {
             Method::MinIp => self.word(2),
             Method::Mean => self.word(3),
             Method::Sum => self.word(4),
+            Method::FirstHit(told) => {
+                let told = match told {
+                    FirstHit::Depth => 0,
+                    FirstHit::Point => 1,
+                    FirstHit::Normal => 2,
+                };
+                self.words([6, told]);
+            }
             Method::Isosurface { value, refinement } => {
                 self.words([5, value.to_bits()]);
                 let [kind, steps] = match refinement {

@@ -1,4 +1,4 @@
-//! Emission and absorption without samples.
+//! Emission and absorption, and where they begin, without samples.
 
 use super::Renderer;
 use super::cells::{Cell, Cells, Cuts};
@@ -7,6 +7,7 @@ use super::quadrature::{LIT_TOLERANCE, Quadrature, Stretch, TOLERANCE};
 use crate::gradient::GradientOperator;
 use crate::image::PixelResult;
 use crate::prepared::Passage;
+use crate::scene::FirstHit;
 use rayloom_volume::{Knot, TransferFunction};
 
 /// Optical depth at which a ray ends: from here on the opacity `1 - exp(-depth)` is 1 in float64.
@@ -22,17 +23,11 @@ struct Piece {
 
 impl Renderer<'_> {
     pub(super) fn emission(&self, passage: &Passage) -> PixelResult {
-        let (scene, functions) = (self.prepared.scene, &self.prepared.functions);
-        // Light bends where gradients do: one-sided differences turn to the other side half a voxel before the edge.
-        let turns = matches!(scene.gradient, GradientOperator::Forward | GradientOperator::Backward);
-        let cuts = if scene.shading.is_some() && turns { Cuts::HalfVoxels } else { Cuts::Centers };
         let mut total = Stretch::default();
         let mut first = None;
         let mut pieces = Vec::new();
-        let cells = Cells::new(&self.prepared.field, &passage.segment, cuts).cut_at_faces(functions.faces());
-        for cell in cells.filter(|cell| !cell.is_gap) {
-            pieces.clear();
-            split(&cell, functions.at(passage.segment.at(cell.fraction(0.5))), &mut pieces);
+        for cell in self.cells(passage) {
+            self.split(passage, &cell, &mut pieces);
             for piece in &pieces {
                 first.get_or_insert_with(|| cell.fraction(piece.from));
                 total = total.then(&self.stretch(passage, &cell, piece, total.transmittance()));
@@ -44,6 +39,34 @@ impl Renderer<'_> {
         let Some(first) = first else { return PixelResult::NOTHING };
         let [r, g, b] = total.color;
         PixelResult { color: [r, g, b, total.opacity()], depth: passage.segment.parameter_at(first) }
+    }
+
+    /// Where the first piece begins that can be seen.
+    pub(super) fn first_hit(&self, passage: &Passage, told: FirstHit) -> PixelResult {
+        let mut pieces = Vec::new();
+        let hit = self.cells(passage).find_map(|cell| {
+            self.split(passage, &cell, &mut pieces);
+            pieces.first().map(|piece| cell.fraction(piece.from))
+        });
+        let told =
+            |fraction| self.prepared.told(told, passage.segment.at(fraction), passage.segment.parameter_at(fraction));
+        hit.map_or(PixelResult::NOTHING, told)
+    }
+
+    /// The cells of a ray that have values, of one transfer function each.
+    fn cells(&self, passage: &Passage) -> impl Iterator<Item = Cell> {
+        let scene = self.prepared.scene;
+        // Light bends where gradients do: one-sided differences turn to the other side half a voxel before the edge.
+        let turns = matches!(scene.gradient, GradientOperator::Forward | GradientOperator::Backward);
+        let cuts = if scene.shading.is_some() && turns { Cuts::HalfVoxels } else { Cuts::Centers };
+        let cells = Cells::new(&self.prepared.field, &passage.segment, cuts);
+        cells.cut_at_faces(self.prepared.functions.faces()).filter(|cell| !cell.is_gap)
+    }
+
+    /// The pieces of a cell of which something can be seen, into `pieces`.
+    fn split(&self, passage: &Passage, cell: &Cell, pieces: &mut Vec<Piece>) {
+        pieces.clear();
+        split(cell, self.prepared.functions.at(passage.segment.at(cell.fraction(0.5))), pieces);
     }
 
     /// What a piece does to the ray, a share of `transmittance` of which reaches the eye.

@@ -10,6 +10,7 @@
 //! - [`Method::Mip`] and [`Method::MinIp`] look at turning points and ends of cells, [`Method::Mean`] and [`Method::Sum`] at
 //!   the mean of coefficients.
 //! - [`Method::Isosurface`] takes the first root; a ray that touches the surface from outside meets it.
+//! - [`Method::FirstHit`] is where the first piece begins that is not transparent.
 //!
 //! There is nothing to choose: [`Scene::rate`], [`Scene::early_termination`] and the refinement of isosurfaces do not apply.
 //! Opacity 1 that the transfer function reaches at a single value is a pole of the extinction with a finite integral; only
@@ -71,6 +72,7 @@ impl<'a> Renderer<'a> {
             Method::Dvr => self.emission(&passage),
             Method::Mip | Method::MinIp | Method::Mean | Method::Sum => self.project(&passage),
             Method::Isosurface { value, .. } => self.isosurface(&passage, value),
+            Method::FirstHit(told) => self.first_hit(&passage, told),
         }
     }
 

@@ -1,8 +1,10 @@
-//! Emission and absorption.
+//! Emission and absorption, and where they begin.
 
 use super::{Path, Renderer};
 use crate::image::PixelResult;
-use rayloom_volume::extinction;
+use crate::scene::FirstHit;
+use glam::DVec3;
+use rayloom_volume::{Rgba, extinction};
 
 impl Renderer<'_> {
     /// Composites the samples of a ray front to back.
@@ -10,8 +12,7 @@ impl Renderer<'_> {
         let mut result = PixelResult::NOTHING;
         for sample in self.samples(path) {
             let texture = path.texture(sample.position);
-            let function = self.prepared.functions.at(texture);
-            let material = function.evaluate(self.prepared.field.at_texture(texture));
+            let material = self.material(texture);
             if material.opacity <= 0.0 {
                 continue;
             }
@@ -29,5 +30,17 @@ impl Renderer<'_> {
             }
         }
         result
+    }
+
+    /// The first sample that is not transparent.
+    pub(super) fn first_hit(&self, path: &Path, told: FirstHit) -> PixelResult {
+        let visible = |position: &f64| self.material(path.texture(*position)).opacity > 0.0;
+        let hit = self.samples(path).map(|sample| sample.position).find(visible);
+        let told = |position| self.prepared.told(told, path.texture(position), path.depth(position));
+        hit.map_or(PixelResult::NOTHING, told)
+    }
+
+    fn material(&self, texture: DVec3) -> Rgba {
+        self.prepared.functions.at(texture).evaluate(self.prepared.field.at_texture(texture))
     }
 }

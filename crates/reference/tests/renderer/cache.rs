@@ -4,7 +4,8 @@ use crate::scenes::*;
 use glam::DVec3;
 use rayloom_reference::shading::{Diffuse, Highlight, Shading};
 use rayloom_reference::{
-    Cache, Camera, Classification, Image, Labels, Method, Rectangle, Reference, Refinement, Scene, Source, unattended,
+    Cache, Camera, Classification, FirstHit, Image, Labels, Method, Rectangle, Reference, Refinement, Scene, Source,
+    unattended,
 };
 use rayloom_volume::{Label, LabelTable, TransferFunction, Volume};
 use std::collections::BTreeSet;
@@ -120,6 +121,8 @@ fn whatever_changes_a_picture_changes_its_file() {
         lit(Diffuse::Lambert, Highlight::Phong { shininess: 32.0 }),
         lit(Diffuse::Lambert, Highlight::CookTorrance { roughness: 0.3, reflectance: 0.2 }),
         lit(Diffuse::Lambert, Highlight::Ward { along: 0.3, across: 0.2 }),
+        change(&|scene| scene.method = Method::FirstHit(FirstHit::Depth)),
+        change(&|scene| scene.method = Method::FirstHit(FirstHit::Point)),
     ];
     for reference in Reference::ALL {
         let paths: BTreeSet<_> = scenes.iter().map(|scene| cache.path(reference, scene, None)).collect();

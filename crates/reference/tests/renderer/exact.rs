@@ -6,7 +6,7 @@ use rayloom_reference::closed_forms::*;
 use rayloom_reference::gradient::GradientOperator;
 use rayloom_reference::ray::AxisBox;
 use rayloom_reference::shading::{Diffuse, Highlight, LightSpace, Shading};
-use rayloom_reference::{Camera, Comparison, MISS, Method, Refinement, Scene, exact, same_samples};
+use rayloom_reference::{Camera, Comparison, FirstHit, MISS, Method, Refinement, Scene, exact, same_samples};
 use rayloom_volume::{Knot, TransferFunction, Volume};
 
 /// The field `start + slope x` whose voxel centres span `x = 0..length`.
@@ -136,6 +136,38 @@ fn planes_and_touched_surfaces() {
         let expected = plane_hit(ray.origin, ray.direction, normal, offset).expect("the plane is not parallel");
         assert!((hit.depth - expected).abs() < 1e-13 && hit.normal.abs_diff_eq(-normal, 1e-12));
         assert_eq!(renderer.pixel(x, y).depth, hit.depth);
+    }
+}
+
+#[test]
+fn first_hits_of_planes() {
+    let dims = [8, 9, 10];
+    let normal = DVec3::new(-0.36, 0.48, -0.8);
+    let volume = volume(dims, filling(dims, DVec3::splat(-1.0), DVec3::new(1.0, 2.0, 1.5)), |p| normal.dot(p));
+    let center = volume.texture_to_world().transform_point3(DVec3::splat(0.5));
+    let camera = Camera::perspective(center - 4.0 * normal + DVec3::new(0.3, 0.2, 0.0), center, 6.0);
+    // Visible from the plane on, once by a jump and once by a slope.
+    let offset = normal.dot(center);
+    let slope =
+        TransferFunction { knots: vec![Knot::new(offset, [1.0; 3], 0.0), Knot::new(offset + 0.1, [1.0; 3], 0.9)] };
+    for function in [step(offset, 0.1), slope] {
+        let mut scene = Scene::new(&volume, function, camera, [8, 6]);
+        let ray = camera.view(scene.size).expect("the camera makes sense").ray(3, 4);
+        let depth = plane_hit(ray.origin, ray.direction, normal, offset).expect("the plane is not parallel");
+        let point = volume.texture_to_world().inverse().transform_point3(ray.at(depth));
+        let told =
+            [(FirstHit::Depth, DVec3::splat(depth)), (FirstHit::Point, point), (FirstHit::Normal, 0.5 - 0.5 * normal)];
+        for (told, expected) in told {
+            scene.method = Method::FirstHit(told);
+            let found = exact::Renderer::new(&scene).expect("the scene makes sense").pixel(3, 4);
+            let [r, g, b, alpha] = found.color;
+            assert!(DVec3::new(r, g, b).abs_diff_eq(expected, 1e-12) && alpha == 1.0, "{told:?} {found:?} {expected}");
+            assert!((found.depth - depth).abs() < 1e-12);
+            // The first sample inside lies behind, by less than a step.
+            scene.rate = 100.0;
+            let sampled = same_samples::Renderer::new(&scene).expect("the scene makes sense").pixel(3, 4);
+            assert!((0.0..0.01).contains(&(sampled.depth - depth)), "{} {depth}", sampled.depth);
+        }
     }
 }
 
