@@ -9,13 +9,14 @@ fn transfer_lookup(u: f32) -> vec4f {
     let x = clamp(u, 0.0, 1.0) * f32(last);
     let i = min(i32(x), last - 1);
     let cuts = textureLoad(transfer_table, vec2i(i, 6), 0).xy;
-    let piece = i32(x >= cuts.x) + i32(x >= cuts.y);
-    var ends = vec4f(f32(i), cuts, f32(i + 1));
-    let start = textureLoad(transfer_table, vec2i(i, 2 * piece), 0);
-    let end = textureLoad(transfer_table, vec2i(i, 2 * piece + 1), 0);
+    let cut = vec2f(x) >= cuts;
+    let row = select(select(0, 2, cut.x), 4, cut.y);
+    let low = select(select(f32(i), cuts.x, cut.x), cuts.y, cut.y);
+    let high = select(select(cuts.x, cuts.y, cut.x), f32(i + 1), cut.y);
+    let start = textureLoad(transfer_table, vec2i(i, row), 0);
+    let end = textureLoad(transfer_table, vec2i(i, row + 1), 0);
     // A piece may be empty, and is so behind the last entry.
-    let along = (x - ends[piece]) / max(ends[piece + 1] - ends[piece], 1e-9);
-    return mix(start, end, clamp(along, 0.0, 1.0));
+    return mix(start, end, clamp((x - low) / max(high - low, 1e-9), 0.0, 1.0));
 #else
     return table_lookup(transfer_table, 0, u);
 #endif

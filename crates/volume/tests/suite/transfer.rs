@@ -150,7 +150,7 @@ fn steps_are_met_at_every_value_of_8_bits() {
 fn steep_ramps_get_finer_tables() {
     let range = ValueRange::new(0.0, 1.0);
     for (width, opacity, entries) in [(0.1, 0.6, 1024), (0.02, 0.8, 4093), (0.002, 0.8, 8185), (0.002, 0.02, 1024)] {
-        let f = function(vec![Knot::new(0.3, RED, 0.0), Knot::new(0.3 + width, BLUE, opacity)]);
+        let f = function(vec![Knot::new(0.3, RED, 0.0), Knot::new(0.3 + width, RED, opacity)]);
         assert_eq!(f.table_entries(range, 1024, 8), entries, "{width} {opacity}");
         let table = f.table(range, entries);
         // But for the cells with the ends of the ramp, which are blunted.
