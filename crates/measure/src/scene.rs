@@ -9,7 +9,9 @@ use rayloom_reference::field::Sampling;
 use rayloom_reference::gradient::GradientOperator;
 use rayloom_reference::ray::AxisBox;
 use rayloom_reference::shading::Shading;
-use rayloom_reference::{Camera, Classification, FirstHit, Labels, Method, Projection, Reference, Refinement, Scene};
+use rayloom_reference::{
+    Camera, Classification, FirstHit, Labels, Layer, Method, Projection, Reference, Refinement, Scene,
+};
 use rayloom_volume::{Knot, TransferFunction, Volume, VolumeRole};
 
 use crate::chain::Chain;
@@ -121,6 +123,7 @@ impl Subject {
     pub(crate) fn stands_for(&self, other: &Self) -> bool {
         let surface = |method| match method {
             Method::Isosurface { value, .. } => Method::Isosurface { value, refinement: Refinement::None },
+            Method::Isosurfaces { layers, .. } => Method::Isosurfaces { layers, refinement: Refinement::None },
             other => other,
         };
         surface(self.method) == surface(other.method)
@@ -193,13 +196,25 @@ fn method(properties: &Properties, outport: &str) -> Refusable<Method> {
             let value = properties.f64(&format!("{slot}.isovalue"))?;
             Method::Isosurface { value, refinement: refinement(properties)? }
         }
+        "isosurfaces" => {
+            Method::Isosurfaces { layers: layers(properties, &slot)?, refinement: refinement(properties)? }
+        }
         other => {
             return refuse(format!(
-                "the compositing `{other}` has no counterpart there; it knows dvr, mip, minip, mean, sum, isosurface and the \
-                 first hits"
+                "the compositing `{other}` has no counterpart there; it knows dvr, mip, minip, mean, sum, isosurface, \
+                 isosurfaces and the first hits"
             ));
         }
     })
+}
+
+fn layers(properties: &Properties, slot: &str) -> Refusable<[Layer; 3]> {
+    let layer = |name: &str| {
+        let [r, g, b, _] = properties.color(&format!("{slot}.color_{name}"))?;
+        let number = |what: &str| properties.f64(&format!("{slot}.{what}_{name}"));
+        Ok::<_, MeasureError>(Layer { value: number("isovalue")?, color: [r, g, b], opacity: number("opacity")? })
+    };
+    Ok([layer("a")?, layer("b")?, layer("c")?])
 }
 
 fn refinement(properties: &Properties) -> Refusable<Refinement> {
@@ -221,6 +236,9 @@ fn classification(
     method: Method,
     labels: impl Fn() -> Refusable<Arc<Volume>>,
 ) -> Refusable<Classification> {
+    if let Method::Isosurfaces { .. } = method {
+        return Ok(TransferFunction::default().into());
+    }
     if let Method::Isosurface { .. } = method {
         let [r, g, b, _] = properties.color(&format!("{}.color", compositing_of(outport)))?;
         let surface = TransferFunction::new(vec![Knot::new(0.0, [r, g, b], 1.0)]);

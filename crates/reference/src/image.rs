@@ -61,4 +61,15 @@ pub struct PixelResult {
 impl PixelResult {
     /// Nothing met.
     pub const NOTHING: Self = Self { color: [0.0; 4], depth: MISS };
+
+    /// Puts straight `color` of some opacity behind what is there; the depth is that of the first.
+    pub(crate) fn put_behind(&mut self, [r, g, b]: [f64; 3], opacity: f64, depth: f64) {
+        if self.color[3] == 0.0 {
+            self.depth = depth;
+        }
+        let weight = (1.0 - self.color[3]) * opacity;
+        for (sum, c) in self.color.iter_mut().zip([r, g, b, 1.0]) {
+            *sum += weight * c;
+        }
+    }
 }

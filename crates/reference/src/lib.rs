@@ -45,5 +45,5 @@ pub use metrics::{Comparison, DisplayComparison, DisplayPicture, SurfaceComparis
 pub use prepared::SurfaceHit;
 pub use progress::{Progress, RenderError, unattended};
 pub use reference::Reference;
-pub use scene::{FirstHit, Method, Refinement, Scene, SceneError};
+pub use scene::{FirstHit, Layer, Method, Refinement, Scene, SceneError};
 pub use surface::surface_points;

@@ -109,7 +109,8 @@ impl<'a> Prepared<'a> {
             return color;
         }
         let viewer = -ray.direction.normalize();
-        let facing = if matches!(self.scene.method, Method::Isosurface { .. }) { viewer } else { self.towards_light };
+        let surface = matches!(self.scene.method, Method::Isosurface { .. } | Method::Isosurfaces { .. });
+        let facing = if surface { viewer } else { self.towards_light };
         let lit = shading.light(color, self.normal(gradient), facing, self.towards_light, viewer);
         [0, 1, 2].map(|i| color[i] + weight * (lit[i] - color[i]))
     }

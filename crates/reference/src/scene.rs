@@ -22,6 +22,17 @@ pub enum Refinement {
     Secant(u32),
 }
 
+/// One of several isosurfaces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Layer {
+    /// The value in data units.
+    pub value: f64,
+    /// Straight colour.
+    pub color: [f64; 3],
+    /// Opacity; a layer of none is not there.
+    pub opacity: f64,
+}
+
 /// What is told of the place where a ray first meets something visible.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FirstHit {
@@ -54,6 +65,14 @@ pub enum Method {
         /// How the crossing is located.
         refinement: Refinement,
     },
+    /// All crossings of up to three values, composited front to back. Depth: the first. Where the field passes several values at
+    /// one place, they are met in the order in which it would come by them.
+    Isosurfaces {
+        /// The surfaces in any order; classification does not apply to them.
+        layers: [Layer; 3],
+        /// How the crossings are located.
+        refinement: Refinement,
+    },
     /// The first place that is not transparent, opaque, with what is told of it as its colour. Depth: that place.
     FirstHit(FirstHit),
 }
@@ -81,13 +100,13 @@ pub struct Scene<'a> {
     pub method: Method,
     /// Colours and opacities; by labels for [`Method::Dvr`] and [`Method::FirstHit`] only.
     pub classification: Classification,
-    /// Lighting of [`Method::Dvr`] and [`Method::Isosurface`]; the others are never lit.
+    /// Lighting of [`Method::Dvr`] and isosurfaces; the others are never lit.
     pub shading: Option<Shading>,
     /// How gradients for the lighting are taken.
     pub gradient: GradientOperator,
     /// Seed of the jitter of the sample lattice, see [`crate::same_samples::jitter`]; `None` for none.
     pub jitter: Option<u32>,
-    /// Opacity at which [`Method::Dvr`] stops following a ray; what is accumulated stays as it is.
+    /// Opacity at which [`Method::Dvr`] and [`Method::Isosurfaces`] stop following a ray; what is accumulated stays as it is.
     pub early_termination: Option<f64>,
 }
 
@@ -132,10 +151,13 @@ impl<'a> Scene<'a> {
         if !self.clip.min.is_finite() || !self.clip.max.is_finite() {
             return Err(SceneError::Clip);
         }
-        if let Method::Isosurface { value, .. } = self.method
-            && !value.is_finite()
-        {
-            return Err(SceneError::Isovalue { found: value });
+        let isovalues = match self.method {
+            Method::Isosurface { value, .. } => vec![value],
+            Method::Isosurfaces { layers, .. } => layers.map(|layer| layer.value).to_vec(),
+            _ => vec![],
+        };
+        if let Some(found) = isovalues.into_iter().find(|value| !value.is_finite()) {
+            return Err(SceneError::Isovalue { found });
         }
         if matches!(self.classification, Classification::Labels(_))
             && !matches!(self.method, Method::Dvr | Method::FirstHit(_))

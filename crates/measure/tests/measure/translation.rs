@@ -57,6 +57,13 @@ fn the_same_samples_agree_with_the_device() {
         ],
         &[("traversal.compositing", json!("sum")), ("traversal.compositing.gain", json!(0.5))],
         &[
+            ("traversal.compositing", json!("isosurfaces")),
+            ("traversal.compositing.isovalue_b", json!(0.4)),
+            ("traversal.compositing.opacity_c", json!(0.8)),
+            ("traversal.compositing.isovalue_c", json!(0.2)),
+            ("traversal.shading", json!("phong")),
+        ],
+        &[
             ("traversal.compositing", json!("first_hit_point")),
             (
                 "traversal.transfer_function",

@@ -7,7 +7,7 @@ use crate::gradient::GradientOperator;
 use crate::image::Rectangle;
 use crate::ray::AxisBox;
 use crate::reference::Reference;
-use crate::scene::{FirstHit, Method, Refinement, Scene};
+use crate::scene::{FirstHit, Layer, Method, Refinement, Scene};
 use crate::shading::{Diffuse, Highlight, LightSpace, Shading};
 use glam::DVec3;
 use rayloom_volume::{Knot, Label, LabelTable, TransferFunction, Volume};
@@ -145,16 +145,28 @@ impl Digest {
             }
             Method::Isosurface { value, refinement } => {
                 self.words([5, value.to_bits()]);
-                let [kind, steps] = match refinement {
-                    _ if !sampled => [0, 0],
-                    Refinement::None => [1, 0],
-                    Refinement::Linear => [2, 0],
-                    Refinement::Bisection(halvings) => [3, halvings],
-                    Refinement::Secant(steps) => [4, steps],
-                };
-                self.words([kind, steps].map(u64::from));
+                self.refinement(refinement, sampled);
+            }
+            Method::Isosurfaces { layers, refinement } => {
+                self.word(7);
+                for Layer { value, color, opacity } in layers {
+                    self.numbers([value, opacity]);
+                    self.numbers(color);
+                }
+                self.refinement(refinement, sampled);
             }
         }
+    }
+
+    fn refinement(&mut self, refinement: Refinement, sampled: bool) {
+        let [kind, steps] = match refinement {
+            _ if !sampled => [0, 0],
+            Refinement::None => [1, 0],
+            Refinement::Linear => [2, 0],
+            Refinement::Bisection(halvings) => [3, halvings],
+            Refinement::Secant(steps) => [4, steps],
+        };
+        self.words([kind, steps].map(u64::from));
     }
 
     fn classification(&mut self, classification: &Classification) {

@@ -9,7 +9,7 @@
 //!   are integrated by collocation of order 16, halved until both are right to [`TOLERANCE`] ([`LIT_TOLERANCE`] under lighting).
 //! - [`Method::Mip`] and [`Method::MinIp`] look at turning points and ends of cells, [`Method::Mean`] and [`Method::Sum`] at
 //!   the mean of coefficients.
-//! - [`Method::Isosurface`] takes the first root; a ray that touches the surface from outside meets it.
+//! - [`Method::Isosurface`] takes the first root, [`Method::Isosurfaces`] all; a ray that touches a surface from outside meets it.
 //! - [`Method::FirstHit`] is where the first piece begins that is not transparent.
 //!
 //! There is nothing to choose: [`Scene::rate`], [`Scene::early_termination`] and the refinement of isosurfaces do not apply.
@@ -72,6 +72,7 @@ impl<'a> Renderer<'a> {
             Method::Dvr => self.emission(&passage),
             Method::Mip | Method::MinIp | Method::Mean | Method::Sum => self.project(&passage),
             Method::Isosurface { value, .. } => self.isosurface(&passage, value),
+            Method::Isosurfaces { layers, .. } => self.isosurfaces(&passage, layers),
             Method::FirstHit(told) => self.first_hit(&passage, told),
         }
     }

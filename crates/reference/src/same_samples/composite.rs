@@ -16,15 +16,9 @@ impl Renderer<'_> {
             if material.opacity <= 0.0 {
                 continue;
             }
-            if result.color[3] == 0.0 {
-                result.depth = path.depth(sample.position);
-            }
             let opacity = -(-extinction(material.opacity) * sample.length * path.step).exp_m1();
             let color = self.prepared.lit(material.color, texture, &path.ray);
-            let weight = (1.0 - result.color[3]) * opacity;
-            for (sum, c) in result.color.iter_mut().zip([color[0], color[1], color[2], 1.0]) {
-                *sum += weight * c;
-            }
+            result.put_behind(color, opacity, path.depth(sample.position));
             if self.prepared.scene.early_termination.is_some_and(|threshold| result.color[3] >= threshold) {
                 break;
             }

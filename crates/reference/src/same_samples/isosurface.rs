@@ -1,8 +1,8 @@
-//! The first crossing of a value.
+//! Crossings of values.
 
 use super::{Path, Renderer, SurfaceHit};
 use crate::image::PixelResult;
-use crate::scene::Refinement;
+use crate::scene::{Layer, Refinement};
 
 /// A position on a ray, in steps, and how far the value there lies above the isovalue.
 #[derive(Debug, Clone, Copy)]
@@ -19,7 +19,7 @@ impl Point {
 
 impl Renderer<'_> {
     pub(super) fn isosurface(&self, path: &Path, isovalue: f64, refinement: Refinement) -> PixelResult {
-        let Some(position) = self.crossing(path, isovalue, refinement) else { return PixelResult::NOTHING };
+        let Some(position) = self.first_crossing(path, isovalue, refinement) else { return PixelResult::NOTHING };
         let texture = path.texture(position);
         let color = self.prepared.functions.at(texture).evaluate(isovalue).color;
         let [r, g, b] = self.prepared.lit(color, texture, &path.ray);
@@ -27,28 +27,51 @@ impl Renderer<'_> {
     }
 
     pub(super) fn surface_hit(&self, path: &Path, isovalue: f64, refinement: Refinement) -> Option<SurfaceHit> {
-        let position = self.crossing(path, isovalue, refinement)?;
+        let position = self.first_crossing(path, isovalue, refinement)?;
         Some(self.prepared.surface_at(path.texture(position), path.depth(position)))
+    }
+
+    /// Layers of surfaces, front to back.
+    pub(super) fn isosurfaces(&self, path: &Path, mut layers: [Layer; 3], refinement: Refinement) -> PixelResult {
+        layers.sort_by(|a, b| a.value.total_cmp(&b.value));
+        let mut falling = layers;
+        falling.sort_by(|a, b| b.value.total_cmp(&a.value));
+        let mut result = PixelResult::NOTHING;
+        for stretch in self.stretches(path) {
+            for layer in if stretch[1].1 >= stretch[0].1 { layers } else { falling } {
+                let crossing = self.crossing(path, stretch, layer.value, refinement);
+                if let Some(position) = crossing.filter(|_| layer.opacity > 0.0) {
+                    let color = self.prepared.lit(layer.color, path.texture(position), &path.ray);
+                    result.put_behind(color, layer.opacity, path.depth(position));
+                }
+            }
+            if self.prepared.scene.early_termination.is_some_and(|threshold| result.color[3] >= threshold) {
+                break;
+            }
+        }
+        result
     }
 
     /// Position of the first crossing between entry, samples and exit, in steps. A ray that enters inside is not cut there: it
     /// crosses where it comes out; nothing is crossed where the field has no value.
-    fn crossing(&self, path: &Path, isovalue: f64, refinement: Refinement) -> Option<f64> {
-        let at = |position: f64| Point { position, excess: self.value(path, position) - isovalue };
-        let mut previous = Some(at(0.0)).filter(|_| !self.in_gap(path, 0.0));
+    fn first_crossing(&self, path: &Path, isovalue: f64, refinement: Refinement) -> Option<f64> {
+        self.stretches(path).find_map(|stretch| self.crossing(path, stretch, isovalue, refinement))
+    }
+
+    /// Position and value of the ends of the stretches between entry, samples and exit; those in gaps are left out.
+    fn stretches<'p>(&'p self, path: &'p Path) -> impl Iterator<Item = [(f64, f64); 2]> + 'p {
         let samples = path.lattice.samples().map(|sample| sample.position);
-        for position in samples.chain(std::iter::once(path.lattice.length)) {
-            if self.in_gap(path, position) {
-                previous = None;
-                continue;
-            }
-            let current = at(position);
-            if let Some(previous) = previous.filter(|previous| current.is_inside() != previous.is_inside()) {
-                return Some(refine(at, previous, current, refinement));
-            }
-            previous = Some(current);
-        }
-        None
+        let places = std::iter::once(0.0).chain(samples).chain(std::iter::once(path.lattice.length));
+        let ends = places.map(|place| (!self.in_gap(path, place)).then(|| (place, self.value(path, place))));
+        let pairs = ends.scan(None, |previous, end| Some((std::mem::replace(previous, end), end)));
+        pairs.filter_map(|(from, to)| Some([from?, to?]))
+    }
+
+    /// Position of the crossing on a stretch, if its ends lie on different sides.
+    fn crossing(&self, path: &Path, stretch: [(f64, f64); 2], isovalue: f64, refinement: Refinement) -> Option<f64> {
+        let [before, after] = stretch.map(|(position, value)| Point { position, excess: value - isovalue });
+        let at = |position: f64| Point { position, excess: self.value(path, position) - isovalue };
+        (before.is_inside() != after.is_inside()).then(|| refine(at, before, after, refinement))
     }
 }
 

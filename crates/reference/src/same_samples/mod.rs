@@ -55,6 +55,7 @@ impl<'a> Renderer<'a> {
             Method::Dvr => self.composite(&path),
             Method::Mip | Method::MinIp | Method::Mean | Method::Sum => self.project(&path),
             Method::Isosurface { value, refinement } => self.isosurface(&path, value, refinement),
+            Method::Isosurfaces { layers, refinement } => self.isosurfaces(&path, layers, refinement),
             Method::FirstHit(told) => self.first_hit(&path, told),
         }
     }

@@ -4,8 +4,8 @@ use crate::scenes::*;
 use glam::DVec3;
 use rayloom_reference::shading::{Diffuse, Highlight, Shading};
 use rayloom_reference::{
-    Cache, Camera, Classification, FirstHit, Image, Labels, Method, Rectangle, Reference, Refinement, Scene, Source,
-    unattended,
+    Cache, Camera, Classification, FirstHit, Image, Labels, Layer, Method, Rectangle, Reference, Refinement, Scene,
+    Source, unattended,
 };
 use rayloom_volume::{Label, LabelTable, TransferFunction, Volume};
 use std::collections::BTreeSet;
@@ -95,6 +95,10 @@ fn whatever_changes_a_picture_changes_its_file() {
     let lit = |diffuse_term, highlight| {
         change(&|scene| scene.shading = Some(Shading { diffuse_term, highlight, ..Shading::default() }))
     };
+    let layered = |opacity| {
+        let layers = [0.2, 0.4, 0.6].map(|value| Layer { value, color: [1.0; 3], opacity });
+        change(&|scene| scene.method = Method::Isosurfaces { layers, refinement: Refinement::Linear })
+    };
     let surface = |value, refinement| Method::Isosurface { value, refinement };
     let scenes = [
         scene(&volume),
@@ -123,6 +127,8 @@ fn whatever_changes_a_picture_changes_its_file() {
         lit(Diffuse::Lambert, Highlight::Ward { along: 0.3, across: 0.2 }),
         change(&|scene| scene.method = Method::FirstHit(FirstHit::Depth)),
         change(&|scene| scene.method = Method::FirstHit(FirstHit::Point)),
+        layered(0.5),
+        layered(0.6),
     ];
     for reference in Reference::ALL {
         let paths: BTreeSet<_> = scenes.iter().map(|scene| cache.path(reference, scene, None)).collect();

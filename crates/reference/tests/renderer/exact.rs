@@ -3,10 +3,11 @@
 use crate::scenes::*;
 use glam::{DAffine3, DMat3, DVec3};
 use rayloom_reference::closed_forms::*;
+use rayloom_reference::field::Sampling;
 use rayloom_reference::gradient::GradientOperator;
 use rayloom_reference::ray::AxisBox;
 use rayloom_reference::shading::{Diffuse, Highlight, LightSpace, Shading};
-use rayloom_reference::{Camera, Comparison, FirstHit, MISS, Method, Refinement, Scene, exact, same_samples};
+use rayloom_reference::{Camera, Comparison, FirstHit, Layer, MISS, Method, Refinement, Scene, exact, same_samples};
 use rayloom_volume::{Knot, TransferFunction, Volume};
 
 /// The field `start + slope x` whose voxel centres span `x = 0..length`.
@@ -140,6 +141,45 @@ fn planes_and_touched_surfaces() {
 }
 
 #[test]
+fn layers_in_the_order_of_the_ray() {
+    // Values rise to 0.25 at x = 0 and fall again.
+    let volume = volume([17, 3, 3], filling([17, 3, 3], DVec3::splat(-0.5), DVec3::splat(0.5)), |p| 0.25 - p.x.abs());
+    let layer = |value, red| Layer { value, color: [red, 1.0 - red, 0.5], opacity: 0.4 };
+    let [low, middle, high] = [layer(-0.1, 0.9), layer(0.1, 0.2), layer(0.2, 0.6)];
+    let over = |order: &[Layer]| {
+        let mut sum = [0.0; 4];
+        for Layer { color: [r, g, b], opacity, .. } in order {
+            let weight = opacity * (1.0 - sum[3]);
+            sum = std::array::from_fn(|i| sum[i] + weight * [*r, *g, *b, 1.0][i]);
+        }
+        sum
+    };
+    let mut scene = Scene::new(&volume, TransferFunction::default(), along_x(0.1, 0.0), [1, 1]);
+    scene.method =
+        Method::Isosurfaces { layers: [middle, low, Layer { opacity: 0.0, ..high }], refinement: Refinement::Linear };
+    let close = |a: [f64; 4], b: [f64; 4]| (0..4).all(|i| (a[i] - b[i]).abs() < 1e-15);
+    let expected = over(&[low, middle, middle, low]);
+    for image in
+        [exact::render(&scene), same_samples::render(&scene)].map(|image| image.expect("a scene that makes sense"))
+    {
+        assert!(close(image.pixel(0, 0), expected), "{:?} {expected:?}", image.pixel(0, 0));
+        assert!((image.depth[0] - 9.65).abs() < 1e-12, "{}", image.depth[0]);
+    }
+    // Two at one jump, either way; the third is met nowhere.
+    let step = self::volume([3, 1, 1], filling([3, 1, 1], DVec3::ZERO, DVec3::ONE), |p| 1.0 - 3.0 * (p.x - 0.5).abs());
+    scene.volume = &step;
+    scene.sampling = Sampling::Nearest;
+    scene.camera = along_x(0.4, 0.3);
+    scene.method = Method::Isosurfaces { layers: [middle, high, low], refinement: Refinement::None };
+    let expected = over(&[middle, high, high, middle]);
+    for image in
+        [exact::render(&scene), same_samples::render(&scene)].map(|image| image.expect("a scene that makes sense"))
+    {
+        assert!(close(image.pixel(0, 0), expected), "{:?} {expected:?}", image.pixel(0, 0));
+    }
+}
+
+#[test]
 fn first_hits_of_planes() {
     let dims = [8, 9, 10];
     let normal = DVec3::new(-0.36, 0.48, -0.8);
@@ -202,6 +242,7 @@ fn samples_converge_to_the_exact_picture() {
     let volume = noisy();
     let lit = Shading { gradient_fade: 0.05, ..Shading::default() };
     let refinement = Refinement::Secant(8);
+    let layers = [0.6, 0.3, 0.7].map(|value| Layer { value, color: [1.0 - value, value, 0.5], opacity: 0.5 });
     let methods = [
         (Method::Dvr, None, 2e-4),
         (Method::Dvr, Some(lit), 2e-4),
@@ -210,6 +251,7 @@ fn samples_converge_to_the_exact_picture() {
         (Method::Mean, None, 2e-5),
         (Method::Sum, None, 2e-5),
         (Method::Isosurface { value: 0.6, refinement }, Some(lit), 2e-3),
+        (Method::Isosurfaces { layers, refinement }, Some(lit), 2e-3),
     ];
     for (method, shading, tolerance) in methods {
         for gradient in [
