@@ -96,8 +96,8 @@ pub(crate) fn budget(
     }
     rows.push(round_off(network, bench, views, cache, listener)?);
     let not_separated = vec![
-        "the table of the transfer function (1024 entries, 8185 where it has steps; 256 x 256 for pre-integration), which is part of the last row or of \
-         the quadrature"
+        "the table of the transfer function (1024 entries, more for steep ramps, cut at steps; 256 x 256 for pre-integration), \
+         which is part of the last row or of the quadrature"
             .to_owned(),
         "the form of the opacity: opacities are always 1 - exp(-x), which adds no error"
             .to_owned(),

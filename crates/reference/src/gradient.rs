@@ -23,8 +23,8 @@ pub enum GradientOperator {
 impl GradientOperator {
     /// The gradient at index coordinates `p`, in data units per voxel along each voxel axis.
     ///
-    /// The place and the taps are held within the box of the voxel centres, and differences divided by the distance that is left: a linear field
-    /// has one gradient everywhere. An axis of a single voxel contributes nothing.
+    /// The place and the taps are held within the box of the voxel centres, and differences divided by the distance that is
+    /// left: a linear field has one gradient everywhere. An axis of a single voxel contributes nothing.
     pub fn gradient(self, field: &Field, p: DVec3) -> DVec3 {
         let p = p.clamp(DVec3::ZERO, field.last_center());
         if self == Self::Sobel {

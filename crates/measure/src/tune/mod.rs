@@ -226,9 +226,11 @@ impl Tuned {
             }
             Verdict::TooSlow => format!("No setting takes at most {budget} a picture. {name} is the fastest.{missed}"),
         };
-        let share = |error: f64| match self.goal.max_error {
-            Some(allowed) => format!(", {:.0} % of what is allowed", 100.0 * error / allowed),
+        let share = |error: f64| match self.goal.max_error.map(|allowed| error / allowed) {
             None => String::new(),
+            Some(share) if share < 0.01 => ", less than 1 % of what is allowed".into(),
+            Some(share) if share > 1.0 => format!(", {} times what is allowed", number(share)),
+            Some(share) => format!(", {:.0} % of what is allowed", 100.0 * share),
         };
         let unseen = largest(&self.unseen);
         sentences += &format!(
