@@ -1,7 +1,7 @@
 //! T14, T15 gradients of polynomials, T16 the signal of Marschner and Lobb, read point by point through the ray loop.
 
 use glam::{DAffine3, DVec3};
-use rayloom_measure::probe;
+use rayloom_measure::verify::probe;
 use rayloom_reference::Camera;
 use rayloom_reference::field::{self, Sampling};
 use rayloom_reference::ray::AxisBox;

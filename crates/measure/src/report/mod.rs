@@ -1,18 +1,19 @@
 //! The page of a measurement: one file, nothing from the network.
 
 pub(crate) mod axis;
+mod csv;
+pub(crate) mod output;
 mod picture;
 mod plot;
 pub(crate) mod style;
 mod tables;
-pub(crate) mod text;
 mod views;
 
 use std::fmt::Write;
 
+use crate::text::{self, escaped};
 use crate::{MeasureError, Measurements};
 use plot::Plot;
-use text::escaped;
 
 /// Error maps that a page shows at most.
 const MOST_MAPS: usize = 8;

@@ -3,7 +3,7 @@
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder, ImageError};
 
-use crate::error_color::{error_color, error_colors};
+use crate::errors::color::{error_color, error_colors};
 
 /// The ground on which pictures are shown: premultiplied colours are laid over it.
 const GROUND: [f64; 3] = [0.08, 0.09, 0.12];

@@ -3,9 +3,9 @@
 use std::fmt::Write;
 
 use super::axis::Axis;
-use super::text::{escaped, number};
 use crate::Measurements;
-use crate::pareto::Point;
+use crate::run::pareto::Point;
+use crate::text::{escaped, number};
 
 const WIDTH: f64 = 560.0;
 const HEIGHT: f64 = 400.0;

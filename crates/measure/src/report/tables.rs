@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use serde_json::Value as Json;
 
-use super::text::{escaped, milliseconds, number, percent};
-use crate::budget::GRADIENT;
+use crate::run::budget::GRADIENT;
+use crate::text::{escaped, milliseconds, number, percent};
 use crate::{Budget, Figures, Measured, Measurements};
 
 /// The settings by rising error.

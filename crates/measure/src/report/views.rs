@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::picture;
 use super::tables::by_error;
-use super::text::{decibels, escaped, milliseconds, number, percent};
+use crate::text::{decibels, escaped, milliseconds, number, percent};
 use crate::{Displayed, Figures, MeasureError, Measured, Measurements, SurfaceErrors};
 
 /// References of views that a page shows at most.

@@ -10,9 +10,9 @@ use rayloom_reference::metrics::Pixel;
 
 use super::views::view;
 use super::{Goal, Progress};
-use crate::bench::Bench;
-use crate::chain::Chain;
-use crate::yardstick::{Standard, choose, finest};
+use crate::run::bench::Bench;
+use crate::run::yardstick::{Standard, choose, finest};
+use crate::subject::chain::Chain;
 use crate::{Errors, MeasureError, Refusal, Setting, Summary};
 
 /// Samples of the longest ray of the finest picture, for networks that the float64 reference cannot draw, at first.

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use rayloom_network::{Address, Network, Value};
 use serde_json::{Value as Json, json};
 
-use crate::chain::Chain;
-use crate::setting::{Assignment, Setting, plain};
+use crate::run::setting::{Assignment, Setting, plain};
+use crate::subject::chain::Chain;
 
 /// Samples per voxel, rung by rung: two rungs are a factor of two. Fewer than one sample in two voxels may miss what some views
 /// show and others do not, so that the error of one view says nothing about that of another.

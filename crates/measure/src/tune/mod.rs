@@ -17,8 +17,8 @@ use rayloom_gpu::Gpu;
 use rayloom_network::{Address, Network, Preset};
 use rayloom_reference::Cache;
 
-use crate::chain::Chain;
-use crate::report::text::{milliseconds, number};
+use crate::subject::chain::Chain;
+use crate::text::{milliseconds, number};
 use crate::{MeasureError, Setting, Standard, Summary};
 pub use judge::picture_error;
 use judge::{Judge, Share};

@@ -7,7 +7,8 @@ use serde_json::json;
 use super::grid::{BLOB, GRIDS, dims, lab};
 use super::lab::{Lab, rms};
 use super::{Axis, Case, Expectation, Extent};
-use crate::{MeasureError, probe};
+use crate::MeasureError;
+use crate::verify::probe;
 
 const SIZE: [u32; 2] = [32, 32];
 /// Values are rounded by 6e-8 each, and a difference is divided by the edge of a voxel, 0.02 on the finest grid.

@@ -8,8 +8,9 @@ use serde_json::{Value as Json, json};
 
 use super::lab::{Lab, rms};
 use super::{Axis, Case, Expectation, Extent};
-use crate::rays::{Chord, tabulated};
-use crate::{MeasureError, probe};
+use crate::MeasureError;
+use crate::verify::probe;
+use crate::verify::rays::{Chord, tabulated};
 
 const SIZE: [u32; 2] = [40, 40];
 /// Voxels along an edge of the box from -1 to 1.

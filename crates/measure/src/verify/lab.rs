@@ -9,10 +9,10 @@ use rayloom_reference::exact;
 use rayloom_volume::Volume;
 use serde_json::{Value as Json, json};
 
-use crate::bench::{Bench, Pixels};
-use crate::chain::Chain;
-use crate::rays::{Chord, chords};
-use crate::yardstick::assignment;
+use crate::run::bench::{Bench, Pixels};
+use crate::run::yardstick::assignment;
+use crate::subject::chain::Chain;
+use crate::verify::rays::{Chord, chords};
 use crate::{MeasureError, Setting};
 
 /// Properties and their values, `PROCESSOR.PROPERTY` each.

@@ -9,7 +9,9 @@ mod lab;
 mod page;
 mod pixels;
 mod plot;
+pub mod probe;
 mod quadrature;
+pub mod rays;
 
 use std::path::{Path, PathBuf};
 
@@ -161,7 +163,7 @@ impl Study {
             ("convergence.json".to_owned(), serde_json::to_string_pretty(self)? + "\n"),
         ];
         files.extend(plots);
-        crate::output::write_files(folder, files)
+        crate::report::output::write_files(folder, files)
     }
 }
 

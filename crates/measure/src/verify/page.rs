@@ -2,7 +2,7 @@
 
 use super::{Axis, Case, Study, plot};
 use crate::report::style::STYLE;
-use crate::report::text::{escaped, number};
+use crate::text::{escaped, number};
 
 /// The whole page.
 pub(super) fn page(study: &Study) -> String {

@@ -8,7 +8,7 @@ use serde_json::{Value as Json, json};
 use super::lab::{Lab, rms};
 use super::{Axis, Case, Expectation, Extent};
 use crate::MeasureError;
-use crate::rays::Chord;
+use crate::verify::rays::Chord;
 
 /// Pixels along an edge.
 const PIXELS: [u32; 5] = [16, 32, 64, 128, 256];

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::{Axis, Case, Study};
 use crate::report::axis::Axis as Scale;
-use crate::report::text::{escaped, number};
+use crate::text::{escaped, number};
 
 const WIDTH: f64 = 720.0;
 const HEIGHT: f64 = 400.0;

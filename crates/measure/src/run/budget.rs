@@ -5,8 +5,8 @@ use rayloom_reference::Cache;
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
-use crate::bench::Bench;
-use crate::yardstick::{Standard, Yardstick, assignment, storage};
+use crate::run::bench::Bench;
+use crate::run::yardstick::{Standard, Yardstick, assignment, storage};
 use crate::{Errors, Listener, MeasureError, Setting};
 
 /// How many times finer the samples are when the quadrature is switched off.
@@ -131,7 +131,7 @@ fn row(
         return Ok(Row::unswitched(switch.cause, "nothing to switch".into()));
     };
     let found = network.value(processor, property).map(|value| value.to_json()).unwrap_or_default();
-    let plain = crate::setting::plain;
+    let plain = crate::run::setting::plain;
     if found == *best {
         let switch = format!("{property} is {} already", plain(&found));
         return Ok(Row::unswitched(cause, switch));
@@ -167,7 +167,7 @@ fn round_off(
         Ok(reference) => {
             let found = pictures(bench, &setting, views)?;
             let switch = "32-bit storage \u{2192} the same samples in float64".to_owned();
-            let reference = crate::figures::row(&reference, |view| &view.pixels);
+            let reference = crate::run::figures::row(&reference, |view| &view.pixels);
             Ok(Row { cause, switch, change: Some(Errors::of(&found, &reference)?.0), left: None })
         }
         Err(MeasureError::Refusal(refusal)) => Ok(Row::unswitched(cause, refusal.to_string())),

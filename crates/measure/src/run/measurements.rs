@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 use serde_json::Value as Json;
 
-use crate::budget::Budget;
-use crate::pareto::{self, Point};
+use crate::run::budget::Budget;
+use crate::run::pareto::{self, Point};
 use crate::{Figures, Setting};
 
 /// A setting and what it was found to cost and to give.

@@ -1,4 +1,8 @@
-//! From an evaluated network to a scene of the float64 reference.
+//! What is measured: the picture of a ray traversal in an evaluated network, as a scene of the float64 reference.
+
+pub(crate) mod chain;
+pub(crate) mod draw;
+mod lighting;
 
 use std::sync::Arc;
 
@@ -14,8 +18,8 @@ use rayloom_reference::{
 };
 use rayloom_volume::{Knot, TransferFunction, Volume, VolumeRole};
 
-use crate::chain::Chain;
-use crate::lighting::{gradient, shading};
+use crate::subject::chain::Chain;
+use crate::subject::lighting::{gradient, shading};
 use crate::{MeasureError, Refusal};
 
 /// What a ray traversal shows, in the words of the reference; it keeps the volume.

@@ -3,8 +3,8 @@
 use rayloom_network::{Address, Network};
 use serde_json::Value as Json;
 
-use crate::chain::Chain;
-use crate::setting::{Assignment, Setting, plain};
+use crate::run::setting::{Assignment, Setting, plain};
+use crate::subject::chain::Chain;
 
 /// The processor that a knob belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

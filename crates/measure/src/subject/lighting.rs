@@ -5,8 +5,8 @@ use rayloom_reference::Method;
 use rayloom_reference::gradient::GradientOperator;
 use rayloom_reference::shading::{Diffuse, Highlight, LightSpace, Shading};
 
-use crate::chain::Chain;
-use crate::scene::{Refusable, refuse};
+use crate::subject::chain::Chain;
+use crate::subject::{Refusable, refuse};
 
 /// The shading of a ray traversal; `None` for none.
 pub(crate) fn shading(properties: &Properties, method: Method) -> Refusable<Option<Shading>> {

@@ -6,11 +6,11 @@ use rayloom_network::{Address, Camera, Network, Value};
 use rayloom_reference::{Cache, FirstHit, Method, Reference, surface_points};
 use serde_json::{Value as Json, json};
 
-use crate::bench::Bench;
-use crate::chain::Chain;
-use crate::figures::Expected;
-use crate::setting::Assignment;
-use crate::surface::Surface;
+use crate::errors::surface::Surface;
+use crate::run::bench::Bench;
+use crate::run::figures::Expected;
+use crate::run::setting::Assignment;
+use crate::subject::chain::Chain;
 use crate::{Listener, MeasureError, Refusal, Setting};
 
 /// The choice of a reference.

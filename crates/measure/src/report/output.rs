@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::{MeasureError, Measurements, csv, report};
+use crate::report::{self, csv};
+use crate::{MeasureError, Measurements};
 
 /// Writes `measurements.csv`, `views.csv`, `measurements.json` and `report.html` into a folder, which is made if it is not there, and
 /// returns their paths.

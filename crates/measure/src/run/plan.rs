@@ -2,9 +2,9 @@
 
 use rayloom_network::{Address, Network};
 
-use crate::chain::Chain;
-use crate::ladder::{LADDERS, ladder};
-use crate::setting::{Setting, combinations, count};
+use crate::run::ladder::{LADDERS, ladder};
+use crate::run::setting::{Setting, combinations, count};
+use crate::subject::chain::Chain;
 use crate::{MeasureError, Standard, Vary};
 
 /// Settings that one measurement may have.

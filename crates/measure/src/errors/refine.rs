@@ -6,7 +6,7 @@ use rayloom_gpu::{Gpu, GpuError};
 use rayloom_network::{Address, Backend, Input, Inputs, Job, Level, Network, Outputs, Value};
 use rayloom_processors::{Data, Runner};
 
-use crate::bench::Pixels;
+use crate::run::bench::Pixels;
 use crate::{Counts, MeasureError};
 
 /// Runs ray traversals anew beside an evaluation, which it leaves alone.

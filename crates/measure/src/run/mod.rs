@@ -1,16 +1,27 @@
 //! A measurement from beginning to end.
 
+mod advice;
+pub(crate) mod bench;
+pub(crate) mod budget;
+pub(crate) mod figures;
+pub(crate) mod ladder;
+pub(crate) mod measurements;
+pub mod pareto;
+pub(crate) mod plan;
+pub(crate) mod setting;
+pub(crate) mod views;
+pub(crate) mod yardstick;
+
 use rayloom_gpu::Gpu;
 use rayloom_network::{Camera, Network};
 use rayloom_reference::Cache;
 
-use crate::bench::Bench;
-use crate::chain::Chain;
-use crate::figures::{Expected, row};
-use crate::views::views;
-use crate::yardstick::{Standard, Yardstick, choose, finest};
+use crate::run::bench::Bench;
+use crate::run::figures::{Expected, row};
+use crate::run::views::views;
+use crate::run::yardstick::{Standard, Yardstick, choose, finest};
+use crate::subject::chain::Chain;
 use crate::{Figures, Listener, MeasureError, Measured, Measurements, Plan, Refused, Setting, Subject, Summary};
-use crate::{advice, budget};
 
 /// Lowest sampling rate of the finest setting.
 const FINEST_RATE: f64 = 16.0;

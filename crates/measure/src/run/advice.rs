@@ -2,7 +2,7 @@
 
 use rayloom_reference::metrics::VISIBLE_ERROR;
 
-use crate::report::text::{milliseconds, number, percent};
+use crate::text::{milliseconds, number, percent};
 use crate::{Measured, Measurements, pareto::Point};
 
 /// The setting to choose: the cheapest whose error cannot be seen, else the most accurate.
@@ -151,7 +151,7 @@ fn quoted(measured: &Measured) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Counts, Displayed, Errors, Figures, Setting, Summary, setting::combinations};
+    use crate::{Counts, Displayed, Errors, Figures, Setting, Summary, run::setting::combinations};
 
     /// A setting with this error and times from `low` to `high`; the first one stands for the network as saved.
     fn measured(index: usize, error: f64, [low, high]: [f64; 2]) -> Measured {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::setting::plain;
+use crate::run::setting::plain;
 use crate::{Assignment, Figures, Measurements, Setting, SurfaceErrors};
 
 /// A column: its name, and the number, if there is one.

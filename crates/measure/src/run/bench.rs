@@ -7,10 +7,10 @@ use rayloom_network::{Address, Camera, Evaluator, Level, Network, Report, Reques
 use rayloom_processors::{Data, Picture, Runner};
 use serde_json::json;
 
-use crate::chain::Chain;
-use crate::figures::Shot;
-use crate::scene::compositing_of;
-use crate::surface::{Layers, NORMAL, Surface, surface};
+use crate::errors::surface::{Layers, NORMAL, Surface, surface};
+use crate::run::figures::Shot;
+use crate::subject::chain::Chain;
+use crate::subject::compositing_of;
 use crate::{Counts, MeasureError, Setting, Subject};
 
 /// Pixels in a row, premultiplied.

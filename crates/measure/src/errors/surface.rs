@@ -8,9 +8,9 @@ use rayloom_reference::{SurfaceComparison, SurfacePoint};
 use serde::Serialize;
 
 use crate::MeasureError;
-use crate::chain::Chain;
-use crate::ladder::reads_gradient;
-use crate::scene::compositing_of;
+use crate::run::ladder::reads_gradient;
+use crate::subject::chain::Chain;
+use crate::subject::compositing_of;
 
 /// How far the surfaces in pictures are from those of their reference.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

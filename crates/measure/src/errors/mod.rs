@@ -1,4 +1,9 @@
-//! The errors of a setting over all its views.
+//! How far pictures are from what they should show: here the errors of a setting over all its views.
+
+pub(crate) mod color;
+pub(crate) mod estimate;
+pub(crate) mod refine;
+pub(crate) mod surface;
 
 use rayloom_reference::Comparison;
 use rayloom_reference::metrics::Pixel;

@@ -3,7 +3,7 @@
 use rayloom_reference::{DisplayComparison, DisplayPicture};
 use serde::Serialize;
 
-use crate::surface::Surface;
+use crate::errors::surface::Surface;
 use crate::{Errors, MeasureError, SurfaceErrors};
 
 /// Median and spread of some timings, milliseconds.

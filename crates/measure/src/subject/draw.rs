@@ -8,8 +8,8 @@ use rayloom_network::{Address, Network};
 use rayloom_processors::Picture;
 use rayloom_reference::{Cache, Cached, Reference};
 
-use crate::bench::Bench;
-use crate::chain::Chain;
+use crate::run::bench::Bench;
+use crate::subject::chain::Chain;
 use crate::{Listener, MeasureError};
 
 /// Draws what the ray traversal at `port` shows (the only one's if not given), or finds it in the cache. The device gives the
