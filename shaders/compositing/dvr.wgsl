@@ -35,7 +35,11 @@ fn add(state: ptr<function, State>, ray: Ray, s: Sample) {
 }
 
 fn done(state: State) -> bool {
+#if long_rays
+    return state.color.w + state.faint.w >= frame.termination_opacity;
+#else
     return state.color.w >= frame.termination_opacity;
+#endif
 }
 
 fn finish(state: State, ray: Ray) -> Result {

@@ -33,6 +33,8 @@ pub struct Choice {
     pub gaps: bool,
     /// Rays take so many samples that sums of faint ones would lose places.
     pub long_rays: bool,
+    /// Look for the next visible sample before shading it, where nothing else needs the samples between.
+    pub search: bool,
     /// The table of the transfer function is cut at its steps.
     pub steps: bool,
     /// The channel that is classified, 0..=3.
@@ -78,6 +80,7 @@ impl Choice {
             sample_map: false,
             gaps: false,
             long_rays: false,
+            search: true,
             steps: false,
             jitter: false,
             trace: false,
@@ -292,7 +295,8 @@ impl<'a> Used<'a> {
         set("skipping", self.snippets.contains_key(&Slot::Skipping));
         set(
             "search",
-            medium
+            choice.search
+                && medium
                 && shading
                 && all_outputs(&|output| output.emptiness == Some(Emptiness::Transparent))
                 && !segment_ends,

@@ -80,6 +80,7 @@ fn every_set_of_outputs_is_valid_with_every_switch() {
                         half_targets: switches & 2 != 0,
                         gaps: switches & 2 != 0,
                         long_rays: switches == 2,
+                        search: switches != 2,
                         steps: switches == 1,
                         channel: switches % 4,
                         channels: switches % 4 + 1,

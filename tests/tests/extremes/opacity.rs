@@ -4,6 +4,7 @@ use glam::{DAffine3, DVec3};
 use rayloom_reference::Camera;
 use rayloom_reference::closed_forms::{LinearRamp, homogeneous_opacity};
 use rayloom_tests::rays::{homogeneous, tabulated};
+use rayloom_tests::timing::samples;
 use rayloom_tests::{Grid, Picture, Workbench, tolerances::*};
 use rayloom_volume::ValueRange;
 use serde_json::json;
@@ -56,6 +57,38 @@ fn e55_many_refined_surfaces_end_no_ray() {
     let exact = 1.0 - (1.0 - 0.002_f64).powi(511);
     println!("E55, 511 surfaces: {found:.6} for {exact:.6}");
     assert!((found - exact).abs() <= OPACITY, "{found}, not {exact}");
+}
+
+/// Lit rays that meet empty space one after the other while they are walked at once: some drivers count the rounds of all.
+#[test]
+fn e55_long_lit_rays_are_not_cut() {
+    let visible = |[i, j, k]: [u32; 3]| i <= (j + k) % 8 || i == 127;
+    let file = Grid::of_index([128, 8, 8], DAffine3::IDENTITY, |index| f64::from(u8::from(visible(index)))).save();
+    let mut bench = Workbench::of_file(file.path());
+    bench.classify(&function(&[(0.4, [1.0; 3], 0.0), (0.6, [1.0; 3], 0.02)]));
+    bench.put("traversal.sampling", json!("nearest")).put("traversal.skipping", json!("none"));
+    bench.put("traversal.shading", json!("diffuse")).put("traversal.termination_error", json!(0));
+    bench.look(&Camera::orthographic(DVec3::new(-9.0, 3.5, 3.5), DVec3::new(60.0, 3.5, 3.5), 8.0));
+    let [short, long] = [10, 160].map(|rate| bench.put("traversal.sampling_rate", json!(rate)).render([8, 8]));
+    assert!(short.color.iter().all(|pixel| pixel[3] > 0.03), "rays meet two visible voxels at least");
+    let d = difference(&short, &long);
+    println!("E55, lit rays of 20480 samples: {d:.2e} off");
+    assert!(d <= OPACITY, "{d}");
+}
+
+/// Sums of faint samples, which long rays keep, count as what has been accumulated.
+#[test]
+fn e39_long_rays_end_early() {
+    let mut bench = bar();
+    bench.classify(&homogeneous(1.0, [1.0; 3])).put("traversal.termination_error", json!(0.01));
+    bench.put("traversal.skipping", json!("none"));
+    for rate in [100, 2000] {
+        let taken = samples(bench.put("traversal.sampling_rate", json!(rate)), [4, 4]) as f64;
+        // ln 100 of 25 units.
+        let share = taken / (16.0 * 25.0 * f64::from(rate));
+        println!("E39, {rate} samples a voxel: {share:.3} of them taken");
+        assert!((share - 0.01_f64.ln() / -25.0).abs() < 0.01, "{rate}: {share}");
+    }
 }
 
 #[test]

@@ -126,12 +126,18 @@ pub(crate) fn choose(asked: Option<Standard>, bench: &mut Bench) -> Result<(Stan
     }
 }
 
-/// Every knob of storage and termination at its finest, and `rate` samples per voxel.
+/// Every knob of storage and termination at its finest, and `rate` samples per voxel, classified one by one: tables of
+/// pre-integration are too coarse for steep transfer functions, however many samples there are.
 pub(crate) fn finest(network: &Network, chain: &Chain, rate: f64) -> Setting {
     let mut setting = storage(network, chain);
     setting.name = "finest".into();
     setting.assignments.push(assignment(chain.traversal(), "sampling_rate", json!(rate)));
     setting.assignments.push(assignment(chain.traversal(), "termination_error", json!(0.0)));
+    if let Some(Value::Text(id)) = network.value(chain.traversal(), "classification")
+        && id.starts_with("preintegrated")
+    {
+        setting.assignments.push(assignment(chain.traversal(), "classification", json!("transfer_function")));
+    }
     setting
 }
 

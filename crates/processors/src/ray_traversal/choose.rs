@@ -66,6 +66,7 @@ pub(super) fn plan<'a>(
         half_targets: job.properties.text("target")? == "16-bit",
         gaps: memory.gaps.of(volume, channel).is_some(),
         long_rays: steps > long_rays::LONG,
+        search: context.gpu.loop_rounds().is_none_or(|rounds| long_rays::may_search(rounds, steps)),
         steps: false,
         channel,
         channels: volume.channels,
@@ -86,7 +87,7 @@ pub(super) fn plan<'a>(
             has_steps(job.properties.transfer_function("transfer_function")?, volume.ranges()[channel as usize]);
     }
     let rounds = context.gpu.loop_rounds();
-    let most_samples = rounds.map(|rounds| long_rays::most_samples(rounds, &library, &choice, &features));
+    let most_samples = rounds.map(|rounds| long_rays::most_samples(rounds, &library, &choice));
     if let Some(most) = most_samples.filter(|most| steps > f64::from(*most)) {
         notes.push(format!(
             "This device's driver ends long loops, so a ray takes at most {most} samples; longer rays take longer steps."

@@ -2,11 +2,13 @@
 
 use rayloom_network::{ProcessError, Properties};
 use rayloom_volume::Volume;
-use rayloom_wgsl::{Choice, Features, Library, Slot, Termination, has_loops};
+use rayloom_wgsl::{Choice, Library, Slot, Termination, has_loops};
 
 /// Steps of a ray beyond which the rounding of sums of faint samples shows: 8192 additions of equal numbers are off by 8192 / 2^25,
 /// a sixteenth of a grey level in the worst case.
 pub(super) const LONG: f64 = 8192.0;
+/// Rays that Mesa's software driver walks at once.
+const LANES: f64 = 8.0;
 /// Surfaces that a compositing snippet looks for at a sample, at most.
 const SURFACES: u32 = 3;
 
@@ -15,16 +17,21 @@ pub(super) fn most_steps(volume: &Volume, properties: &Properties) -> Result<f64
     Ok(volume.dims_f64().length() * properties.f64("sampling_rate")?)
 }
 
+/// Whether rays of so many steps may look for visible samples in a loop of its own where a driver ends all loops after `rounds`.
+/// Rays that are walked at once wait for each other there: at worst each in turn is the only one to go on, and takes a round of
+/// the outer loop and the last check of the inner one besides.
+pub(super) fn may_search(rounds: u32, steps: f64) -> bool {
+    (LANES + 2.0) * steps <= f64::from(rounds)
+}
+
 /// The samples that a ray may take where a driver ends all loops of a ray, without a word, after `rounds`.
-pub(super) fn most_samples(rounds: u32, library: &Library, choice: &Choice, features: &Features) -> u32 {
-    // A visible sample found by the inner loop takes a round of the outer and two of the inner one: its own and its last check.
-    let own = if features.has("search") { 3 } else { 1 };
+pub(super) fn most_samples(rounds: u32, library: &Library, choice: &Choice) -> u32 {
     let refinement = choice.snippets.get(&Slot::Refinement).and_then(|path| library.source(path));
     let loops = refinement.is_some_and(|source| has_loops(&source.text));
     let outputs = choice.outputs.iter().flatten().filter_map(|path| library.declaration(path));
     let refined: Vec<_> = outputs.filter(|output| loops && output.reads.contains("refinement")).collect();
     // The loop in a branch not taken is entered, too, for a round without effect.
-    let a_sample = own + SURFACES * refined.len() as u32;
+    let a_sample = 1 + SURFACES * refined.len() as u32;
     // Four rounds for each of four thousand surfaces: a ray meets three in a cell at most, and hardly ever one in each.
     let many = refined.iter().any(|output| output.termination != Termination::Hit);
     let spare = if many { rounds / 4 } else { 256 };
