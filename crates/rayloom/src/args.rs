@@ -225,10 +225,10 @@ pub struct TuneArgs {
     pub set: Vec<Setting>,
     /// The largest error, such as 0.004 or 1/255, that 99 % of the pixels may have on any view. Errors are of premultiplied
     /// colours from 0 to 1, in the pixels that show anything.
-    #[arg(long, value_name = "ERROR", value_parser = fraction)]
+    #[arg(long, value_name = "ERROR", value_parser = fraction, allow_negative_numbers = true)]
     pub max_error: Option<f64>,
     /// The longest time that a picture may take, milliseconds on the device, at the size of the canvas.
-    #[arg(long, value_name = "MS")]
+    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
     pub budget: Option<f64>,
     /// Where to write the network with the setting as a preset; may be the network file itself. Without it the preset is
     /// printed.

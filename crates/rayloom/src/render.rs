@@ -1,6 +1,5 @@
 //! `rayloom render`: evaluates a network and writes a picture.
 
-use std::path::Path;
 use std::time::Instant;
 
 use rayloom_gpu::{Gpu, GpuOptions};
@@ -8,7 +7,7 @@ use rayloom_network::{Evaluator, Network, Report};
 use rayloom_processors::{Data, Picture, Runner, write_picture};
 
 use crate::args::RenderArgs;
-use crate::failure::Failure;
+use crate::failure::{Failure, check_folder};
 use crate::network_file;
 use crate::problems;
 use crate::progress::Line;
@@ -57,16 +56,5 @@ fn evaluate(network: &Network, target: &Target, runner: &mut Runner) -> Result<(
         Some(Data::Image(image)) => Ok((image.read_back(&runner.context)?, report)),
         Some(_) => Err(Failure::new(format!("{port} holds no image; choose another port"))),
         None => Err(problems::failure(network, &report)),
-    }
-}
-
-/// Fails early, before anything is rendered, when a file cannot be written for want of a folder.
-fn check_folder(file: &Path) -> Result<(), Failure> {
-    match file.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => {
-            let (file, folder) = (file.display(), folder.display());
-            Err(Failure::new(format!("{file} cannot be written: there is no folder {folder}; make it first")))
-        }
-        _ => Ok(()),
     }
 }

@@ -7,7 +7,7 @@ use rayloom_measure::{Goal, tune};
 use rayloom_network::Network;
 
 use crate::args::TuneArgs;
-use crate::failure::Failure;
+use crate::failure::{Failure, check_folder};
 use crate::network_file;
 use crate::progress::Line;
 use crate::reference::{DEFAULT_SIZE, cache};
@@ -17,6 +17,7 @@ use crate::reference::{DEFAULT_SIZE, cache};
 /// # Errors
 /// The network cannot be loaded or tuned, or the file cannot be written.
 pub fn run(args: &TuneArgs) -> Result<String, Failure> {
+    args.output.iter().try_for_each(|file| check_folder(file))?;
     let network = network_file::open(&args.network, &args.set)?;
     let goal = Goal {
         port: args.port.clone(),

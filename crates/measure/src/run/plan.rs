@@ -45,7 +45,9 @@ impl Plan {
         let mut settings = vec![Setting::saved()];
         if !self.vary.is_empty() {
             check_count(count(&self.vary))?;
-            settings.extend(combinations(&self.vary));
+            let combinations = combinations(&self.vary);
+            check_values(network, &combinations)?;
+            settings.extend(combinations);
         }
         let all = || LADDERS.iter().map(|ladder| ladder.name.to_owned()).collect::<Vec<_>>();
         let names = match self.ladders.is_empty() && self.vary.is_empty() {
@@ -66,6 +68,22 @@ impl Plan {
 fn unknown(name: &str) -> MeasureError {
     let known: Vec<&str> = LADDERS.iter().map(|ladder| ladder.name).collect();
     MeasureError::Plan(format!("There is no ladder `{name}`: choose all or one of {}.", known.join(", ")))
+}
+
+/// A value that the network takes in no combination is a mistake, and better told before an hour of measuring than behind it.
+fn check_values(network: &Network, combinations: &[Setting]) -> Result<(), MeasureError> {
+    let (mut accepted, mut refused) = (Vec::new(), Vec::new());
+    for setting in combinations {
+        match setting.applied(network) {
+            Ok(_) => accepted.extend(&setting.assignments),
+            Err(error) => refused.push((setting, error)),
+        }
+    }
+    let hopeless = |setting: &Setting| setting.assignments.iter().any(|one| !accepted.contains(&one));
+    match refused.into_iter().find(|(setting, _)| hopeless(setting)) {
+        Some((_, error)) => Err(error.into()),
+        None => Ok(()),
+    }
 }
 
 fn check_count(found: usize) -> Result<(), MeasureError> {

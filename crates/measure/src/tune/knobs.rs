@@ -77,9 +77,19 @@ impl<'a> Knobs<'a> {
     }
 
     /// Whether a ray ends, or changes at once, where it meets a surface.
-    fn shows_surfaces(&self) -> bool {
+    pub fn shows_surfaces(&self) -> bool {
         let compositing = self.text(&self.compositing());
         compositing.starts_with("isosurface") || compositing.starts_with("first_hit")
+    }
+
+    /// What the network has for the values of a candidate.
+    pub fn saved(&self, candidate: &Candidate) -> Candidate {
+        let value = |(address, value): (&Address, &Json)| (address.clone(), self.own(address).unwrap_or(value.clone()));
+        Candidate { rung: candidate.rung, values: candidate.values.iter().map(value).collect() }
+    }
+
+    fn own(&self, address: &Address) -> Option<Json> {
+        Some(self.network.value(&address.processor, &address.item)?.to_json())
     }
 
     /// The candidate with another sampling rate.
@@ -126,9 +136,9 @@ impl<'a> Knobs<'a> {
 
     /// The candidate as a setting, named by what differs from the network as saved.
     pub fn setting(&self, candidate: &Candidate) -> Setting {
-        let own = |address: &Address| Some(self.network.value(&address.processor, &address.item)?.to_json());
         let differs = |(address, value): &(&Address, &Json)| {
-            own(address).is_none_or(|own| own != **value && own.as_f64().is_none_or(|own| value.as_f64() != Some(own)))
+            self.own(address)
+                .is_none_or(|own| own != **value && own.as_f64().is_none_or(|own| value.as_f64() != Some(own)))
         };
         let part = |(address, value): (&Address, &Json)| format!("{} {}", address.item, plain(value));
         let name = candidate.values.iter().filter(differs).map(part).collect::<Vec<_>>().join(", ");
