@@ -34,7 +34,7 @@ pub(super) fn table(gpu: &Gpu, function: &TransferFunction, range: ValueRange) -
 
 /// Whether the table is cut at steps.
 pub(super) fn has_steps(function: &TransferFunction, range: ValueRange) -> bool {
-    function.has_steps(range, ENTRIES)
+    function.has_steps(range, ENTRIES, FINEST)
 }
 
 /// Rows of rising gradient magnitude, 0 to `gradient_maximum`.

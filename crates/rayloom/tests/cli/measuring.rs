@@ -53,15 +53,17 @@ fn references_are_drawn_once_and_resemble_the_picture() {
 fn a_measurement_says_what_to_choose_and_where_the_files_are() {
     let (_folder, within) = network();
     let (network, cache, output) = (within("network.json"), within("cache"), within("measured"));
-    let vary = ["--vary", "traversal.sampling_rate=0.5,8", "--vary", "traversal.target=32-bit,9-bit"];
+    let vary = ["--vary", "traversal.sampling_rate=0.5,8", "--vary", "traversal.channel=0,1"];
     let rest = ["--views", "2", "--rounds", "1", "--size", "20x16", "--cache", &cache, "-o", &output];
     let text = rayloom(["measure", &network].into_iter().chain(vary).chain(rest)).output();
     assert!(text.starts_with("Choose \u{201c}"), "{text}");
-    assert!(text.contains("refused: sampling_rate 0.5, target 9-bit: ") && text.contains("report.html"), "{text}");
+    assert!(text.contains("refused: sampling_rate 0.5, channel 1: ") && text.contains("report.html"), "{text}");
     let table = fs::read_to_string(within("measured/measurements.csv")).expect("a table");
     assert_eq!(table.lines().count(), 1 + 3 + 2, "{table}");
     let views = fs::read_to_string(within("measured/views.csv")).expect("a table");
     assert_eq!(views.lines().count(), 1 + 3 * 2, "{views}");
+    let never = rayloom(["measure", &network, "--vary", "traversal.target=32-bit,9-bit", "-o", &output]).error();
+    assert!(never.contains("traversal.target cannot be set: found `9-bit`"), "{never}");
     let unknown = rayloom(["measure", &network, "--ladder", "speed", "-o", &output]).error();
     assert!(unknown.contains("There is no ladder `speed`"), "{unknown}");
     let usage = rayloom(["measure", &network, "--reference", "perfect", "-o", &output]);

@@ -10,24 +10,28 @@ const SLACK: f64 = 1.0 / (1 << 21) as f64;
 /// The opacity of a reference length that a table may be off by between two entries: a fortieth of a code of 8 bits.
 const TABLE_ERROR: f64 = 1e-4;
 
-/// A table whose cells (from one entry to the next) are cut into three pieces at up to two breaks of the function: jumps, and
-/// kinks of ramps that are narrower than a cell.
+/// A table whose cells (from one entry to the next) are cut into three pieces: at breaks of the function, which are jumps and
+/// kinks, and evenly where there are fewer than two.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SplitTable {
     /// Entries a row: the cells and one more.
     pub width: usize,
     /// [`SplitTable::ROWS`] rows. Row `2 p` is the medium at the start of piece `p` of the cell that begins at the entry, row
     /// `2 p + 1` that at its end, so that row 0 is an ordinary table. The first two numbers of the last row are the two cuts,
-    /// counted in entries from the first of the table; a cut that is not needed lies at the end of the cell.
+    /// counted in entries from the first of the table.
     pub entries: Vec<[f32; 4]>,
 }
 
 impl SplitTable {
-    /// Starts and ends of three pieces, and the cuts.
-    pub const ROWS: usize = 7;
+    /// Starts and ends of the pieces, and the cuts.
+    pub const ROWS: usize = 2 * PIECES + 1;
 }
 
+/// Pieces of a cell.
+const PIECES: usize = 3;
+
 /// A place where the function jumps or bends.
+#[derive(Clone, Copy)]
 struct Break {
     /// Counted in entries from the first of the table.
     x: f64,
@@ -36,15 +40,17 @@ struct Break {
 }
 
 impl TransferFunction {
-    /// Whether the function jumps, or rises or falls within less than a cell of a table of `n` entries over `range`.
-    pub fn has_steps(&self, range: ValueRange, n: usize) -> bool {
+    /// Whether the function jumps, rises or falls within less than a cell of a table of `n` entries over `range`, or so steeply
+    /// that a table of `finest` times as many cells would be off by more than a ten-thousandth.
+    pub fn has_steps(&self, range: ValueRange, n: usize, finest: usize) -> bool {
         // A hundredth of a cell less, because knots on the entries themselves are no steps, whichever way they were rounded.
         let cell = 0.99 * range.width() / (n.max(2) - 1) as f64;
         let narrow = self
             .knots
             .windows(2)
             .any(|pair| pair[1].at - pair[0].at < cell && pair[0].right_side() != pair[1].left_side());
-        narrow || self.knots.iter().any(|knot| knot.right.is_some())
+        let jumps = self.knots.iter().any(|knot| knot.right.is_some());
+        narrow || jumps || self.bends(range, finest * (n.max(2) - 1)) > TABLE_ERROR
     }
 
     /// The entries that a table over `range` needs: `n`, or those of twice, four times, up to `finest` times as many cells where
@@ -55,8 +61,10 @@ impl TransferFunction {
             let breaks = self.breaks(range, cells);
             breaks.windows(3).any(|three| cell_of(&three[0], cells) == cell_of(&three[2], cells))
         };
+        let pieces = if self.has_steps(range, n, finest) { PIECES } else { 1 };
         let mut times = 1;
-        while 2 * times <= finest && (self.bends(range, times * cells) > TABLE_ERROR || crowded(times * cells)) {
+        while 2 * times <= finest && (self.bends(range, times * cells * pieces) > TABLE_ERROR || crowded(times * cells))
+        {
             times *= 2;
         }
         times * cells + 1
@@ -99,12 +107,20 @@ impl TransferFunction {
     fn split_cell(&self, range: ValueRange, cells: usize, i: usize, breaks: &[Break]) -> [[f32; 4]; SplitTable::ROWS] {
         let entry = |i: usize| self.medium(self.met(range, range.denormalise(i as f64 / cells as f64)));
         let (start, end) = (entry(i), entry((i + 1).min(cells)));
-        let end_of_cell = (i + 1) as f64;
-        let [from, to] = [breaks.first(), breaks.get(1..).and_then(<[Break]>::last)];
-        let at = |it: Option<&Break>| it.map_or(end_of_cell, |it| it.x) as f32;
-        let left = |it: Option<&Break>| it.map_or(end, |it| it.left).to_entry();
-        let right = |it: Option<&Break>| it.map_or(end, |it| it.right).to_entry();
-        [start.to_entry(), left(from), right(from), left(to), right(to), end.to_entry(), [at(from), at(to), 0.0, 0.0]]
+        let even = |x: f64| {
+            let here = self.medium(self.met(range, range.denormalise(x / cells as f64)));
+            Break { x, left: here, right: here }
+        };
+        let at = i as f64;
+        let [first, second] = match breaks {
+            [] => [even(at + 1.0 / 3.0), even(at + 2.0 / 3.0)],
+            [one] if one.x < at + 0.5 => [*one, even(0.5 * (one.x + at + 1.0))],
+            [one] => [even(0.5 * (at + one.x)), *one],
+            [first, .., last] => [*first, *last],
+        };
+        let media = [start, first.left, first.right, second.left, second.right, end].map(|medium| medium.to_entry());
+        let [a, b, c, d, e, f] = media;
+        [a, b, c, d, e, f, [first.x as f32, second.x as f32, 0.0, 0.0]]
     }
 
     /// The breaks above the first entry of a table, up to the last, in their order.
