@@ -41,6 +41,8 @@ fn facts(volume: &Volume) -> Vec<(&'static str, String)> {
     let spacing = volume.spacing();
     let extent = spacing * volume.dims_f64();
     let center = volume.texture_to_world().transform_point3(DVec3::splat(0.5));
+    // What is left of a centre at the origin is rounding.
+    let center = DVec3::select(center.abs().cmplt(DVec3::splat(1e-12 * extent.length())), DVec3::ZERO, center);
     let axes = volume.index_to_world.matrix3;
     let axes = [axes.x_axis, axes.y_axis, axes.z_axis].map(|axis| vector(axis.normalize_or_zero().into()));
     let mut facts = vec![

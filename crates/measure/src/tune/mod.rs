@@ -96,6 +96,8 @@ pub struct Tuned {
     pub reference: (Standard, Option<String>),
     /// All settings that were looked at.
     pub tried: Vec<Tried>,
+    /// Whether it was given more samples than it met the target with, for the sake of surfaces.
+    secured: bool,
     goal: Goal,
 }
 
@@ -187,6 +189,7 @@ fn finish(mut search: Search<'_>, found: Found, verdict: Verdict) -> Result<Tune
         saved_error: saved_errors.map(|errors| largest(&errors)),
         saved_time_ms: times.get(1).copied().flatten(),
         reference: (search.judge.standard, search.judge.refusal.as_ref().map(ToString::to_string)),
+        secured: search.knobs.shows_surfaces(),
         tried: search.tried,
         setting,
         seen,
@@ -241,6 +244,10 @@ impl Tuned {
             self.unseen.len(),
             share(unseen)
         );
+        if self.secured && self.verdict == Verdict::Met {
+            sentences += " It has twice the samples that kept the error within the target on these views: rays that miss a \
+                          thin part of a surface are few, and quite wrong.";
+        }
         sentences += &self.costs();
         if let (standard, Some(why)) = &self.reference {
             sentences += &format!(" Compared with the {} picture: {why}", standard.id());
