@@ -23,7 +23,7 @@ fn opacity(picture: &Picture) -> f64 {
     f64::from(picture.at(picture.size[0] / 2, picture.size[1] / 2)[3])
 }
 
-/// 1e5 steps of opacity 1e-8, and as many where a loop in the loop looks for the next visible sample. Where a driver ends
+/// 1e5 steps of opacity 1e-8, unlit and lit. Where a driver ends
 /// loops earlier, the ray takes fewer and longer steps, with a note, and its opacity stays.
 #[test]
 fn e34_e55_e68_faint_material_over_1e5_steps() {

@@ -117,8 +117,12 @@ impl Pass<'_> {
     fn cuts(&self) -> Option<Explanation> {
         let what = "cuts of the transfer function's table";
         self.has("transfer_function").then(|| match self.has("steps") {
-            true => Explanation::new(Role::Computed, what, "it has steps, which would be as wide as an entry"),
-            false => Explanation::new(Role::LeftOut, what, "no step is sharper than an entry"),
+            true => Explanation::new(
+                Role::Computed,
+                what,
+                "the function has steps or steep ramps, which its entries would blunt",
+            ),
+            false => Explanation::new(Role::LeftOut, what, "the function has no steps and no steep ramps"),
         })
     }
 

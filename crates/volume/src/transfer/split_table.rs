@@ -73,7 +73,8 @@ impl TransferFunction {
     /// A bound of how far straight lines over the cells of a table are off in the opacity or colour of a reference length: on a
     /// ramp the extinction `-ln(1 - opacity)` bends, and its product with the colour does.
     fn bends(&self, range: ValueRange, cells: usize) -> f64 {
-        let ramps = self.knots.windows(2).filter(|pair| pair[0].at < range.max && pair[1].at > range.min);
+        let within = |pair: &&[Knot]| pair[0].at < range.max && pair[1].at > range.min && pair[0].at < pair[1].at;
+        let ramps = self.knots.windows(2).filter(within);
         let bend = |pair: &[Knot]| {
             let (from, to) = (pair[0].right_side(), pair[1].left_side());
             let share = (1.0 / (cells as f64 * fraction_of(range, pair))).min(1.0);

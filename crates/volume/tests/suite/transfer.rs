@@ -214,6 +214,9 @@ fn bands_of_any_width_keep_their_width() {
     assert_eq!(comb.table_entries(range, 1024, 8), 8 * 1023 + 1);
     let table = comb.split_table(range, 1024);
     assert!(table.entries.iter().flatten().all(|number| number.is_finite()));
+    // Jumps alone need no finer table, however they are written.
+    let double = function(vec![Knot::new(0.3, RED, 0.0), Knot::new(0.3, RED, 0.8), Knot::new(0.9, RED, 0.8)]);
+    assert!(double.has_steps(range, 1024, 8) && double.table_entries(range, 1024, 8) == 1024);
     assert_eq!(function(vec![]).split_table(ValueRange::new(2.0, 2.0), 2).entries.len(), 2 * SplitTable::ROWS);
 }
 
