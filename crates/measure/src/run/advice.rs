@@ -141,7 +141,7 @@ fn cause(measurements: &Measurements) -> Option<String> {
     let rows = measurements.budget.as_ref()?.rows.iter();
     let (cause, left) = rows.filter_map(|row| Some((row.cause, row.left?.rmse))).min_by(|a, b| a.1.total_cmp(&b.1))?;
     (left < MOST * whole)
-        .then(|| format!("Most of its error comes from the {cause}: {} is left without.", number(left)))
+        .then(|| format!("Most of its error comes from the {cause}: without it {} would be left.", number(left)))
 }
 
 fn quoted(measured: &Measured) -> String {
