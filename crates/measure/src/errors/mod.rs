@@ -2,7 +2,6 @@
 
 pub(crate) mod color;
 pub(crate) mod estimate;
-pub(crate) mod refine;
 pub(crate) mod surface;
 
 use rayloom_reference::Comparison;

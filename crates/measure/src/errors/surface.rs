@@ -8,9 +8,9 @@ use rayloom_reference::{SurfaceComparison, SurfacePoint};
 use serde::Serialize;
 
 use crate::MeasureError;
-use crate::run::ladder::reads_gradient;
 use crate::subject::chain::Chain;
 use crate::subject::compositing_of;
+use crate::subject::lighting::reads_gradient;
 
 /// How far the surfaces in pictures are from those of their reference.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

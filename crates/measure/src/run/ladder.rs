@@ -5,6 +5,7 @@ use serde_json::Value as Json;
 
 use crate::run::setting::{Assignment, Setting, plain};
 use crate::subject::chain::Chain;
+use crate::subject::lighting::reads_gradient;
 
 /// The processor that a knob belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -170,12 +171,6 @@ fn setting(ladder: &Ladder, rung: usize, network: &Network, chain: &Chain) -> Op
         assignments.push(Assignment { property: Address::new(owner, knob.property), value });
     }
     Some(Setting { name: names.join(", "), assignments })
-}
-
-/// Whether a ray traversal lights or classifies by the gradient.
-pub(crate) fn reads_gradient(network: &Network, traversal: &str) -> bool {
-    let is = |property: &str, id: &str| matches!(network.value(traversal, property), Some(rayloom_network::Value::Text(found)) if found == id);
-    !is("shading", "none") || is("classification", "transfer_function_2d")
 }
 
 fn json(text: &str) -> Json {

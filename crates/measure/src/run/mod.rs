@@ -3,11 +3,13 @@
 mod advice;
 pub(crate) mod bench;
 pub(crate) mod budget;
+pub(crate) mod draw;
 pub(crate) mod figures;
 pub(crate) mod ladder;
 pub(crate) mod measurements;
 pub mod pareto;
 pub(crate) mod plan;
+pub(crate) mod refine;
 pub(crate) mod setting;
 pub(crate) mod views;
 pub(crate) mod yardstick;

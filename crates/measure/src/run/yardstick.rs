@@ -157,3 +157,25 @@ pub(crate) fn storage(network: &Network, chain: &Chain) -> Setting {
 pub(crate) fn assignment(processor: &str, property: &str, value: Json) -> Assignment {
     Assignment { property: Address::new(processor, property), value }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+
+    #[test]
+    fn the_finest_picture_does_without_tables_of_pre_integration() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/brain.json");
+        let types = Arc::new(rayloom_processors::registry());
+        let mut network = Network::load(path.as_ref(), &types).expect("the flagship").network;
+        let chain = Chain::find(&network, None).expect("a ray traversal");
+        for (saved, used) in [("preintegrated_full", true), ("preintegrated_fast", true), ("transfer_function", false)]
+        {
+            network.set_from_json(chain.traversal(), "classification", &json!(saved)).expect("a snippet");
+            let finest = finest(&network, &chain, 64.0);
+            let one = assignment(chain.traversal(), "classification", json!("transfer_function"));
+            assert_eq!(finest.assignments.contains(&one), used, "{saved}");
+        }
+    }
+}

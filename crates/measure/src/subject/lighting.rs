@@ -1,12 +1,18 @@
 //! How a ray traversal lights what it shows, in the words of the reference.
 
-use rayloom_network::{self as network, Light, Network, Properties};
+use rayloom_network::{self as network, Light, Network, Properties, Value};
 use rayloom_reference::Method;
 use rayloom_reference::gradient::GradientOperator;
 use rayloom_reference::shading::{Diffuse, Highlight, LightSpace, Shading};
 
 use crate::subject::chain::Chain;
 use crate::subject::{Refusable, refuse};
+
+/// Whether a ray traversal lights or classifies by the gradient.
+pub(crate) fn reads_gradient(network: &Network, traversal: &str) -> bool {
+    let is = |property: &str, id: &str| matches!(network.value(traversal, property), Some(Value::Text(found)) if found == id);
+    !is("shading", "none") || is("classification", "transfer_function_2d")
+}
 
 /// The shading of a ray traversal; `None` for none.
 pub(crate) fn shading(properties: &Properties, method: Method) -> Refusable<Option<Shading>> {

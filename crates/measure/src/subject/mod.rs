@@ -1,8 +1,7 @@
 //! What is measured: the picture of a ray traversal in an evaluated network, as a scene of the float64 reference.
 
 pub(crate) mod chain;
-pub(crate) mod draw;
-mod lighting;
+pub(crate) mod lighting;
 
 use std::sync::Arc;
 

@@ -29,6 +29,8 @@ const TERMINATION_SHARE: f64 = 0.25;
 pub(super) struct Candidate {
     /// Index into [`RATES`].
     pub rung: usize,
+    /// Whether it has twice the samples that met the target, for the sake of surfaces.
+    pub secured: bool,
     values: BTreeMap<Address, Json>,
 }
 
@@ -60,7 +62,7 @@ impl<'a> Knobs<'a> {
             (self.source("precision"), json!("auto")),
         ];
         let values = values.into_iter().filter_map(|(address, value)| Some((address?, value))).collect();
-        self.at(&Candidate { rung: ONE, values }, ONE)
+        self.at(&Candidate { rung: ONE, secured: false, values }, ONE)
     }
 
     /// The lowest rung worth a look: a surface may hide between samples farther apart than voxels.
@@ -71,7 +73,10 @@ impl<'a> Knobs<'a> {
     /// What a candidate that met the target needs so that views never seen can be trusted to meet it, too.
     pub fn secured(&self, candidate: &Candidate, rungs: usize) -> Candidate {
         match self.shows_surfaces() {
-            true => self.at(candidate, (candidate.rung + BEYOND_SURFACES).min(rungs - 1).max(candidate.rung)),
+            true => {
+                let rung = (candidate.rung + BEYOND_SURFACES).min(rungs - 1).max(candidate.rung);
+                Candidate { secured: rung == candidate.rung + BEYOND_SURFACES, ..self.at(candidate, rung) }
+            }
             false => candidate.clone(),
         }
     }
@@ -85,7 +90,7 @@ impl<'a> Knobs<'a> {
     /// What the network has for the values of a candidate.
     pub fn saved(&self, candidate: &Candidate) -> Candidate {
         let value = |(address, value): (&Address, &Json)| (address.clone(), self.own(address).unwrap_or(value.clone()));
-        Candidate { rung: candidate.rung, values: candidate.values.iter().map(value).collect() }
+        Candidate { rung: candidate.rung, secured: false, values: candidate.values.iter().map(value).collect() }
     }
 
     fn own(&self, address: &Address) -> Option<Json> {
@@ -96,7 +101,7 @@ impl<'a> Knobs<'a> {
     pub fn at(&self, candidate: &Candidate, rung: usize) -> Candidate {
         let mut values = candidate.values.clone();
         values.insert(Address::new(self.chain.traversal(), "sampling_rate"), json!(RATES[rung]));
-        Candidate { rung, values }
+        Candidate { rung, secured: false, values }
     }
 
     /// The candidate with each integrator that the network may have.

@@ -96,7 +96,7 @@ pub struct Tuned {
     pub reference: (Standard, Option<String>),
     /// All settings that were looked at.
     pub tried: Vec<Tried>,
-    /// Whether it was given more samples than it met the target with, for the sake of surfaces.
+    /// Whether it has twice the samples that met the target, for the sake of surfaces.
     secured: bool,
     goal: Goal,
 }
@@ -189,7 +189,7 @@ fn finish(mut search: Search<'_>, found: Found, verdict: Verdict) -> Result<Tune
         saved_error: saved_errors.map(|errors| largest(&errors)),
         saved_time_ms: times.get(1).copied().flatten(),
         reference: (search.judge.standard, search.judge.refusal.as_ref().map(ToString::to_string)),
-        secured: search.knobs.shows_surfaces(),
+        secured: candidate.secured,
         tried: search.tried,
         setting,
         seen,
