@@ -99,7 +99,7 @@ pub fn can_connect(network: &Network, from: &Address, to: &Address) -> Result<()
         let connection = Box::new(Connection { from: from.clone(), to: to.clone() });
         return Err(Refusal::Type { connection, found: outport.port_type, expected });
     }
-    check_place(network, from, to, inport.multiple)?;
+    check_place(network, from, to, inport.several)?;
     check_cycle(network, from, to)
 }
 
@@ -112,11 +112,11 @@ pub(crate) fn can_keep(network: &Network, from: &Address, to: &Address) -> Resul
     if !source.is_placeholder() {
         outport(source, from)?;
     }
-    let multiple = target.is_placeholder() || inport(target, to)?.multiple;
+    let several = target.is_placeholder() || inport(target, to)?.several;
     if from.processor == to.processor {
         return Err(Refusal::Itself(from.processor.clone()));
     }
-    check_place(network, from, to, multiple)?;
+    check_place(network, from, to, several)?;
     check_cycle(network, from, to)
 }
 
@@ -148,13 +148,13 @@ fn placeholder(processor: &Processor) -> Refusal {
 }
 
 /// Refuses a second identical connection, and a second one into an inport for one.
-fn check_place(network: &Network, from: &Address, to: &Address, multiple: bool) -> Result<(), Refusal> {
+fn check_place(network: &Network, from: &Address, to: &Address, several: bool) -> Result<(), Refusal> {
     let mut into = network.connections.iter().filter(|connection| connection.to == *to);
     if into.clone().any(|connection| connection.from == *from) {
         return Err(Refusal::Already(from.clone(), to.clone()));
     }
     match into.next() {
-        Some(other) if !multiple => Err(Refusal::Occupied { to: to.clone(), by: other.from.clone() }),
+        Some(other) if !several => Err(Refusal::Occupied { to: to.clone(), by: other.from.clone() }),
         _ => Ok(()),
     }
 }
@@ -195,7 +195,7 @@ fn cycle(reached_from: &BTreeMap<&str, &str>, start: &str, goal: &str) -> Vec<St
 }
 
 impl Network {
-    /// Connects an outport to an inport; a further connection into a `multiple` inport comes last.
+    /// Connects an outport to an inport; an inport for several keeps those that it has.
     ///
     /// # Errors
     /// As [`can_connect`].

@@ -94,14 +94,15 @@ impl<B: Backend> Evaluator<B> {
         }
     }
 
-    /// The data that feeds an inport as of the last evaluation, in the order of the connections.
+    /// The data that feeds an inport as of the last evaluation, sorted by where it comes from.
     pub fn inputs<'a>(
         &'a self,
         network: &'a Network,
         processor: &'a str,
         inport: &'a str,
     ) -> impl Iterator<Item = &'a B::Data> {
-        let into = network.inputs(processor).filter(move |connection| connection.to.item == inport);
+        let into = network.inputs_in_order(processor).into_iter();
+        let into = into.filter(move |connection| connection.to.item == inport);
         into.filter_map(|connection| self.output(&connection.from.processor, &connection.from.item))
     }
 
@@ -223,19 +224,18 @@ impl<B: Backend> Evaluator<B> {
         let mut blocked = Blocked(causes(network, processor));
         let mut complete = blocked.0.is_empty();
         let mut inputs = Inputs::new();
-        for connection in network.inputs(id) {
+        for connection in network.inputs_in_order(id) {
             let Address { processor: source, item } = &connection.from;
             let revision = self.memories.get(source).map(|memory| memory.revision);
             let (Some(data), Some(revision)) = (self.output(source, item), revision) else {
                 complete = false;
                 continue;
             };
-            let inport = &connection.to.item;
-            let unmet = unmet(processor, inport, &backend.facts(data));
+            let unmet = unmet(processor, connection, &backend.facts(data));
             complete &= unmet.is_empty();
             blocked.0.extend(unmet);
             let input = Input { data: data.clone(), from: connection.from.clone(), revision };
-            inputs.entry(inport.clone()).or_default().push(input);
+            inputs.entry(connection.to.item.clone()).or_default().push(input);
         }
         if complete { Ok(inputs) } else { Err(blocked) }
     }
@@ -267,7 +267,7 @@ impl<B: Backend> Evaluator<B> {
             let id = processor.id();
             let mut feeding: BTreeMap<String, Vec<(Address, u64)>> = BTreeMap::new();
             let mut follows = false;
-            for Connection { from, to } in network.inputs(id) {
+            for Connection { from, to } in network.inputs_in_order(id) {
                 follows |= outdated.contains(&from.processor);
                 let revision = self.memories.get(&from.processor).map_or(0, |memory| memory.revision);
                 feeding.entry(to.item.clone()).or_default().push((from.clone(), revision));
@@ -288,13 +288,18 @@ impl<B: Backend> Evaluator<B> {
     }
 }
 
-/// The conditions of an inport that data does not satisfy, as causes.
-fn unmet(processor: &Processor, inport: &str, facts: &Facts) -> Vec<String> {
-    let decl = processor.declaration().and_then(|declaration| declaration.inport(inport));
-    let conditions = decl.into_iter().flat_map(|decl| &decl.conditions);
-    conditions
+/// The conditions of an inport that the data of a connection does not satisfy, as causes. Where several connections may end,
+/// they say which one it is.
+fn unmet(processor: &Processor, connection: &Connection, facts: &Facts) -> Vec<String> {
+    let Connection { from, to } = connection;
+    let Some(decl) = processor.declaration().and_then(|declaration| declaration.inport(&to.item)) else {
+        return Vec::new();
+    };
+    let which = if decl.several { format!(" from {from}") } else { String::new() };
+    decl.conditions
+        .iter()
         .filter(|condition| !(condition.holds)(facts))
-        .map(|condition| format!("{}: input `{inport}` needs {}", processor.id(), condition.message))
+        .map(|condition| format!("{}: input `{}` needs {}{which}", to.processor, to.item, condition.message))
         .collect()
 }
 

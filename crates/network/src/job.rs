@@ -47,7 +47,7 @@ pub struct Input<D> {
     pub revision: u64,
 }
 
-/// Data by inport, in the order of the connections; inports without a connection are absent.
+/// Data by inport, sorted by where it comes from; inports without a connection are absent.
 pub type Inputs<D> = BTreeMap<String, Vec<Input<D>>>;
 
 /// Everything a processor needs for one run.
@@ -58,7 +58,7 @@ pub struct Job<'a, D> {
     pub processor_type: &'a Arc<dyn ProcessorType>,
     /// All properties, defaults filled in, parameters of chosen snippets included.
     pub properties: &'a Properties,
-    /// Data by inport, in the order of the connections; inports without a connection are absent.
+    /// Data by inport, sorted by where it comes from; inports without a connection are absent.
     pub inputs: &'a Inputs<D>,
     /// Outports that something consumes; the others need not be computed.
     pub wanted: &'a BTreeSet<String>,
@@ -76,9 +76,9 @@ impl<D> Job<'_, D> {
         self.inputs.get(inport)?.first().map(|input| &input.data)
     }
 
-    /// All data at an inport, in the order of the connections.
-    pub fn inputs(&self, inport: &str) -> impl Iterator<Item = &D> {
-        self.inputs.get(inport).into_iter().flatten().map(|input| &input.data)
+    /// All data at an inport with where each comes from, sorted by that: the order in which wires were made changes nothing.
+    pub fn inputs(&self, inport: &str) -> &[Input<D>] {
+        self.inputs.get(inport).map_or(&[], Vec::as_slice)
     }
 
     /// Whether something consumes this outport.

@@ -205,7 +205,7 @@ impl Network {
         self.processors.iter().find(|processor| processor.id == id)
     }
 
-    /// All connections; those into one inport are in the order in which the processor sees them.
+    /// All connections, in the order in which they were made.
     pub fn connections(&self) -> &[Connection] {
         &self.connections
     }
@@ -213,6 +213,14 @@ impl Network {
     /// The connections that end at a processor.
     pub fn inputs<'a>(&'a self, processor: &'a str) -> impl Iterator<Item = &'a Connection> {
         self.connections.iter().filter(move |connection| connection.to.processor == processor)
+    }
+
+    /// The connections that end at a processor, in the order in which it sees them: sorted by the processor that they come
+    /// from, then by its outport.
+    pub fn inputs_in_order<'a>(&'a self, processor: &'a str) -> Vec<&'a Connection> {
+        let mut inputs: Vec<&Connection> = self.inputs(processor).collect();
+        inputs.sort();
+        inputs
     }
 
     /// The connections that begin at a processor.

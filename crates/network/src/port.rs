@@ -114,8 +114,9 @@ pub struct InportDecl {
     pub help: String,
     /// Types that may be connected.
     pub accepts: Vec<PortType>,
-    /// Whether several connections may end here; their order is kept.
-    pub multiple: bool,
+    /// Whether several connections may end here. The processor sees them sorted by what they come from
+    /// ([`crate::Network::inputs_in_order`]), so the order in which they were made does not matter.
+    pub several: bool,
     /// Whether the processor is ready without a connection.
     pub optional: bool,
     /// What the data must satisfy.
@@ -130,7 +131,7 @@ impl InportDecl {
             label: label.into(),
             help: String::new(),
             accepts: accepts.to_vec(),
-            multiple: false,
+            several: false,
             optional: false,
             conditions: Vec::new(),
         }
@@ -143,10 +144,10 @@ impl InportDecl {
         self
     }
 
-    /// Allows several connections.
+    /// Lets several connections end here.
     #[must_use]
-    pub fn multiple(mut self) -> Self {
-        self.multiple = true;
+    pub fn several(mut self) -> Self {
+        self.several = true;
         self
     }
 

@@ -13,6 +13,8 @@
 //! }
 //! ```
 //!
+//! An inport for several connections has an entry for each in `connections`; their order means nothing.
+//!
 //! `frames` are titled rectangles with notes (left, top, width, height); files without any lack the field, as older ones do.
 
 mod layout;

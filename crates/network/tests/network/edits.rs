@@ -31,6 +31,30 @@ fn connections_that_do_not_fit_are_refused_with_the_reason() {
     insta::assert_snapshot!(refusal(n, ("view", "image"), ("proxy", "picture")), @"`proxy` (a proxy) has no inport `picture`. There are: `volume`.");
 }
 
+#[test]
+fn an_inport_for_several_keeps_what_it_has_and_loses_one_at_a_time() {
+    let n = &mut pipeline();
+    for (type_id, id) in [("generator", "more"), ("mixture", "mix")] {
+        n.add(type_id, id).unwrap();
+    }
+    for source in ["more", "data"] {
+        n.connect((source, "volume"), ("mix", "volumes")).unwrap();
+    }
+    let sources = |n: &Network| n.inputs_in_order("mix").iter().map(|c| c.from.processor.clone()).collect::<Vec<_>>();
+    assert_eq!(sources(n), ["data", "more"]);
+    insta::assert_snapshot!(refusal(n, ("data", "volume"), ("mix", "volumes")), @"data.volume and mix.volumes are already connected.");
+    let before = n.clone();
+    assert!(n.disconnect(("data", "volume"), ("mix", "volumes")));
+    assert!(!n.disconnect(("data", "volume"), ("mix", "volumes")), "it was there once");
+    assert_eq!(sources(n), ["more"]);
+    assert!(readiness(n, "mix").is_ready());
+    n.remove("more").unwrap();
+    insta::assert_snapshot!(format!("{:?}", readiness(n, "mix")), @r#"NotReady(["mix: input `volumes` is not connected"])"#);
+    *n = before;
+    n.rename("more", "another").unwrap();
+    assert_eq!(sources(n), ["another", "data"]);
+}
+
 fn set_error(network: &mut Network, processor: &str, property: &str, json: serde_json::Value) -> String {
     let before = network.to_text(None);
     let text = network.set_from_json(processor, property, &json).expect_err("must be refused").to_string();

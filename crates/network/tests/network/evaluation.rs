@@ -291,8 +291,62 @@ fn a_run_can_be_asked_for_and_a_renamed_processor_keeps_its_result() {
     assert!(bench.evaluate().runs.is_empty());
 }
 
+/// Three volumes mixed on a canvas, wired in the order given.
+fn mixture(order: [&str; 3]) -> Network {
+    let mut network = Network::new(crate::fake::registry());
+    for id in ["a", "b", "c"] {
+        network.add("generator", id).unwrap();
+    }
+    for (type_id, id) in [("mixture", "mix"), ("canvas", "canvas")] {
+        network.add(type_id, id).unwrap();
+    }
+    for id in order {
+        network.connect((id, "volume"), ("mix", "volumes")).unwrap();
+    }
+    network.connect(("mix", "image"), ("canvas", "image")).unwrap();
+    network
+}
+
 #[test]
-fn layers_arrive_in_the_order_of_their_connections() {
+fn the_order_in_which_wires_were_made_changes_nothing() {
+    let mut bench = Bench::new(mixture(["b", "c", "a"]));
+    bench.evaluate();
+    let fed = ["a.volume -> volumes", "b.volume -> volumes", "c.volume -> volumes"];
+    assert_eq!(bench.backend.fed["mix"], fed);
+    for order in [["a", "b", "c"], ["c", "b", "a"], ["c", "a", "b"]] {
+        bench.network = mixture(order);
+        assert!(bench.evaluate().runs.is_empty(), "{order:?}");
+    }
+    assert!(bench.network.disconnect(("b", "volume"), ("mix", "volumes")));
+    insta::assert_snapshot!(log(&bench.evaluate()), @r"
+    mix [ports]: input `volumes` now comes from a.volume, c.volume
+    canvas [result]: input `image` changed (mix ran)
+    ");
+    assert_eq!(bench.backend.fed["mix"], [fed[0], fed[2]]);
+    assert_eq!(bench.evaluator.inputs(&bench.network, "mix", "volumes").count(), 2);
+    bench.network.connect(("b", "volume"), ("mix", "volumes")).unwrap();
+    assert_eq!(bench.evaluate().ran(), ["mix", "canvas"]);
+    assert_eq!(bench.backend.fed["mix"], fed);
+}
+
+#[test]
+fn every_one_of_several_connections_must_hold_data_that_fits() {
+    let mut bench = Bench::new(mixture(["c", "b", "a"]));
+    for (id, channels) in [("b", 2), ("c", 3)] {
+        bench.set(id, "channels", Value::Int(channels));
+    }
+    insta::assert_snapshot!(bench.evaluate().not_ready["mix"].join("\n"), @r"
+    mix: input `volumes` needs a volume with one channel from b.volume
+    mix: input `volumes` needs a volume with one channel from c.volume
+    ");
+    bench.set("c", "channels", Value::Int(1));
+    assert!(bench.network.disconnect(("b", "volume"), ("mix", "volumes")));
+    assert!(bench.evaluate().is_complete());
+    assert_eq!(bench.backend.fed["mix"], ["a.volume -> volumes", "c.volume -> volumes"]);
+}
+
+#[test]
+fn layers_arrive_sorted_by_what_they_come_from() {
     let mut network = pipeline();
     network.add("compositor", "over").unwrap();
     network.add("preview", "side").unwrap();

@@ -76,8 +76,16 @@ fn declarations() -> Vec<Declaration> {
             .output(OutportDecl::new("image_out", "Image", COLOR))
             .property(PropertyDecl::text("fail", "Fail with", "")),
         Declaration::new("compositor", "Compositor", "Image")
-            .input(InportDecl::new("layers", "Layers", &[COLOR]).multiple())
+            .input(InportDecl::new("layers", "Layers", &[COLOR]).several())
             .output(OutportDecl::new("image", "Image", COLOR)),
+        Declaration::new("mixture", "Mixture", "Rendering")
+            .input(
+                InportDecl::new("volumes", "Volumes", &[PortType::Volume])
+                    .several()
+                    .condition("a volume with one channel", one_channel),
+            )
+            .output(OutportDecl::new("image", "Image", COLOR))
+            .uses_render_size(),
         Declaration::new("canvas", "Canvas", "Output")
             .input(InportDecl::new("image", "Image", &[COLOR, PortType::Image(ImageKind::Depth)]))
             .property(PropertyDecl::size("size", "Size", [640, 480]))
@@ -131,6 +139,8 @@ pub struct Made {
 pub struct Counter {
     pub runs: BTreeMap<String, usize>,
     pub sizes: BTreeMap<String, [u32; 2]>,
+    /// What fed each processor in its last run, as connections.
+    pub fed: BTreeMap<String, Vec<String>>,
     pub silent: bool,
     /// The processor during whose run the evaluation is interrupted.
     pub interrupt: Option<String>,
@@ -155,6 +165,7 @@ impl Backend for Counter {
         }
         *self.runs.entry(job.id.to_owned()).or_default() += 1;
         self.sizes.insert(job.id.to_owned(), job.size);
+        self.fed.insert(job.id.to_owned(), fed(job));
         if let Ok(message) = job.properties.text("fail")
             && !message.is_empty()
         {
@@ -171,6 +182,12 @@ impl Backend for Counter {
         }
         Ok(outputs)
     }
+}
+
+fn fed(job: &Job<'_, Made>) -> Vec<String> {
+    let inports = job.processor_type.declaration().inports.iter();
+    let into = inports.flat_map(|port| job.inputs(&port.id).iter().map(move |input| (&input.from, port)));
+    into.map(|(from, port)| format!("{from} -> {}", port.id)).collect()
 }
 
 fn facts(port_type: PortType, job: &Job<'_, Made>) -> Facts {

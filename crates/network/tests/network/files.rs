@@ -45,6 +45,20 @@ fn frames_come_back_byte_for_byte_and_those_without_a_size_are_refused() {
 }
 
 #[test]
+fn several_connections_into_an_inport_come_back_byte_for_byte_and_none_twice() {
+    let text = include_str!("../fixtures/v1_several.json");
+    let loaded = load(text);
+    assert_eq!(loaded.warnings, []);
+    assert_eq!(loaded.network.to_text(None), text);
+    let sources: Vec<String> =
+        loaded.network.inputs_in_order("mix").iter().map(|connection| connection.from.to_string()).collect();
+    assert_eq!(sources, ["bone.volume", "head.volume", "vessels.volume"]);
+    let twice = text.replace("bone.volume -> mix", "head.volume -> mix");
+    let error = Network::from_text(&twice, Path::new("x.json"), &registry()).unwrap_err();
+    insta::assert_snapshot!(error, @r#"x.json: connections[2]: found "head.volume -> mix.volumes" (head.volume and mix.volumes are already connected), expected a connection that fits."#);
+}
+
+#[test]
 fn defaults_are_left_out() {
     let mut network = pipeline();
     network.set_property("view", "rate", Value::Float(2.0)).unwrap();
@@ -96,7 +110,7 @@ fn unknown_types_are_kept_whole() {
 "#;
     let loaded = Network::from_text(text, Path::new("x.json"), &registry_without("preview")).unwrap();
     insta::assert_snapshot!(warnings(&loaded), @r"
-    processors[1]: the processor type `preview` is unknown; `magic` is kept as it is but cannot run. There are: `canvas`, `compositor`, `filter`, `generator`, `proxy`, `source`, `traversal`.
+    processors[1]: the processor type `preview` is unknown; `magic` is kept as it is but cannot run. There are: `canvas`, `compositor`, `filter`, `generator`, `mixture`, `proxy`, `source`, `traversal`.
     links[0]: there is no magic.rate now; the link is kept but does nothing.
     ");
     let mut network = loaded.network;

@@ -7,7 +7,8 @@ use rayloom_network::*;
 
 use crate::fake::{Counter, registry};
 
-const TYPES: [&str; 8] = ["source", "generator", "proxy", "traversal", "preview", "filter", "compositor", "canvas"];
+const TYPES: [&str; 9] =
+    ["source", "generator", "proxy", "traversal", "preview", "filter", "compositor", "mixture", "canvas"];
 
 #[derive(Clone, Debug)]
 enum Edit {
@@ -145,6 +146,10 @@ proptest! {
         evaluator.evaluate(&network, &mut backend, &Request::default());
         prop_assert!(evaluator.evaluate(&network, &mut backend, &Request::default()).runs.is_empty());
 
+        // The same connections made in another order are the same network.
+        let backwards = rewired_backwards(&network).map_err(|e| TestCaseError::fail(e.to_string()))?;
+        prop_assert!(evaluator.evaluate(&backwards, &mut backend, &Request::default()).runs.is_empty());
+
         let file = Path::new("/nets/some.json");
         let text = network.to_text(file.parent());
         let loaded = Network::from_text(&text, file, &registry()).map_err(|e| TestCaseError::fail(e.to_string()))?;
@@ -156,6 +161,16 @@ proptest! {
             prop_assert_eq!(Some(was), is);
         }
     }
+}
+
+/// The network with its connections made again, the last first.
+fn rewired_backwards(network: &Network) -> Result<Network, Refusal> {
+    let mut backwards = network.clone();
+    for Connection { from, to } in network.connections() {
+        backwards.disconnect(from, to);
+    }
+    network.connections().iter().rev().try_for_each(|Connection { from, to }| backwards.connect(from, to))?;
+    Ok(backwards)
 }
 
 /// The path of a file comes back absolute, so it is left out.

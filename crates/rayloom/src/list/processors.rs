@@ -76,7 +76,7 @@ fn inport(port: &InportDecl) -> Json {
         "label": port.label,
         "help": port.help,
         "accepts": port.accepts.iter().map(ToString::to_string).collect::<Vec<_>>(),
-        "multiple": port.multiple,
+        "several": port.several,
         "optional": port.optional,
         "conditions": port.conditions.iter().map(|condition| condition.message).collect::<Vec<_>>(),
     })
@@ -108,11 +108,11 @@ fn page_text(declaration: &Declaration) -> String {
     text
 }
 
-/// What an inport accepts and needs: "a volume, several, optional; needs a scalar volume".
+/// What an inport accepts and needs: "a volume, takes several, optional; needs a scalar volume".
 fn accepted(port: &InportDecl) -> String {
     let mut text = port.accepts.iter().map(ToString::to_string).collect::<Vec<_>>().join(" or ");
-    if port.multiple {
-        text += ", several";
+    if port.several {
+        text += ", takes several";
     }
     if port.optional {
         text += ", optional";

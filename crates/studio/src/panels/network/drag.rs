@@ -37,7 +37,7 @@ impl Drag {
         let held = match &at {
             End::Inport(to) => {
                 let inport = network.processor(&to.processor).and_then(|p| p.declaration()?.inport(&to.item));
-                let one = inport.is_some_and(|port| !port.multiple);
+                let one = inport.is_some_and(|port| !port.several);
                 network.connections().iter().find(|wire| one && wire.to == *to).cloned()
             }
             End::Outport(_) => None,
