@@ -9,7 +9,7 @@ use crate::{Context, Data, JobData};
 /// Ports, properties and help.
 pub fn declaration() -> Declaration {
     let color = PortType::Image(ImageKind::Color);
-    Declaration::new("canvas", "Canvas", "Sink")
+    Declaration::new(crate::types::CANVAS, "Canvas", "Sink")
         .help("Shows an image. Its size is the size that everything upstream is rendered at.")
         .input(
             InportDecl::new("image", "Image", &[color])

@@ -32,7 +32,7 @@ pub fn declaration() -> Declaration {
     let volume = InportDecl::new("volume", "Volume", &[PortType::Volume]).help("The volume to be bounded.");
     let geometry = OutportDecl::new("geometry", "Geometry", PortType::Geometry)
         .help("A closed box in the coordinates of the volume.");
-    let mut declaration = Declaration::new("cube_proxy", "Cube proxy", "Geometry")
+    let mut declaration = Declaration::new(crate::types::CUBE_PROXY, "Cube proxy", "Geometry")
         .help("The box of a volume as proxy geometry: rays are cast within it. The clip ranges cut it down along the voxel axes.")
         .input(volume)
         .output(geometry);

@@ -28,7 +28,7 @@ pub fn declaration() -> Declaration {
             "Off by up to a voxel of 512: plainly visible. For comparison with early GPU raycasters.",
         ),
     ];
-    Declaration::new("entry_exit_points", "Entry/exit points", "Geometry")
+    Declaration::new(crate::types::ENTRY_EXIT_POINTS, "Entry/exit points", "Geometry")
         .help(
             "For every pixel, the volume coordinates at which its ray enters and leaves the proxy geometry. The camera may \
              be inside the geometry: such rays start at the camera.",

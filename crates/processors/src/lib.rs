@@ -23,6 +23,7 @@ mod process;
 mod ray_traversal;
 mod registry;
 mod slice_view;
+pub mod types;
 mod view;
 mod volume_generator;
 mod volume_source;

@@ -37,7 +37,7 @@ pub fn declaration() -> Declaration {
     let volume = InportDecl::new("volume", "Volume", &[PortType::Volume]).help("The volume to cut.");
     let image = OutportDecl::new("image", "Image", PortType::Image(ImageKind::Color))
         .help("The plane in true proportions, as large as fits; transparent outside of the volume. Without depth.");
-    let declaration = Declaration::new("slice_view", "Slice view", "Rendering")
+    let declaration = Declaration::new(crate::types::SLICE_VIEW, "Slice view", "Rendering")
         .help(
             "Shows a plane through a volume: a slice across one of its axes, or any plane in the world. Values between voxels \
              are interpolated in full precision.",

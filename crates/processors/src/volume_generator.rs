@@ -29,7 +29,7 @@ fn declaration() -> Declaration {
         let (label, help) = field.help();
         Choice::new(field.id(), label, help)
     });
-    Declaration::new("volume_generator", "Volume generator", "Source")
+    Declaration::new(crate::types::VOLUME_GENERATOR, "Volume generator", "Source")
         .help(
             "Samples a formula at voxel centres. The domain, -1 to 1 along each axis, is the box of the volume, which is \
              centred at the origin of the world.",

@@ -26,7 +26,7 @@ pub fn declaration() -> Declaration {
         .level(Level::Parameters);
     let volume = OutportDecl::new("volume", "Volume", PortType::Volume)
         .help("The volume in world coordinates: right-anterior-superior millimetres where the format defines a patient space.");
-    Declaration::new("volume_source", "Volume source", "Source")
+    Declaration::new(crate::types::VOLUME_SOURCE, "Volume source", "Source")
         .help(format!("Reads a volume from a file. {}", known.join(" ")))
         .output(volume)
         .property(file)

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use rayloom_gpu::{Gpu, GpuOptions};
 use rayloom_network::{Address, Evaluator, Network, Processor};
-use rayloom_processors::{Runner, Trace};
+use rayloom_processors::{Runner, Trace, types};
 
 use crate::args::ProbeArgs;
 use crate::failure::Failure;
@@ -45,7 +45,7 @@ pub fn run(args: &ProbeArgs) -> Result<String, Failure> {
 
 /// The processor asked for, or the only ray traversal.
 fn traversal(network: &Network, asked: Option<&str>) -> Result<String, Failure> {
-    let is_traversal = |processor: &&Processor| processor.type_id() == "ray_traversal";
+    let is_traversal = |processor: &&Processor| processor.type_id() == types::RAY_TRAVERSAL;
     let ids: Vec<&str> = network.processors().filter(is_traversal).map(Processor::id).collect();
     match (asked, &ids[..]) {
         (Some(asked), _) if ids.contains(&asked) => Ok(asked.to_owned()),

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use rayloom_gpu::{Gpu, GpuOptions};
 use rayloom_network::{Address, Declaration, Evaluator, Network, Processor, Request, Sinks, closest};
-use rayloom_processors::Runner;
+use rayloom_processors::{Runner, types};
 use rayloom_wgsl::Assembled;
 
 use crate::args::Setting;
@@ -59,7 +59,7 @@ fn used_outports(network: &Network, id: &str) -> Result<Vec<Address>, Failure> {
 }
 
 fn traversals(network: &Network) -> String {
-    let is_traversal = |processor: &&Processor| processor.type_id() == "ray_traversal";
+    let is_traversal = |processor: &&Processor| processor.type_id() == types::RAY_TRAVERSAL;
     let ids: Vec<&str> = network.processors().filter(is_traversal).map(Processor::id).collect();
     match ids.is_empty() {
         true => "the network has no ray_traversal, which does".to_owned(),

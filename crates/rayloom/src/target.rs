@@ -1,11 +1,9 @@
 //! Which image a picture is made of, and what has to be evaluated for it.
 
 use rayloom_network::{Address, Network, PortType, Processor, Readiness, Request, Sinks, closest, readiness};
+use rayloom_processors::types::CANVAS;
 
 use crate::failure::Failure;
-
-/// Id of the type of the processors that show a picture.
-const CANVAS: &str = "canvas";
 
 /// What is to be written.
 pub struct Target {

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use rayloom_gpu::{Gpu, GpuOptions};
 use rayloom_measure::{Goal, tune};
 use rayloom_network::Network;
+use rayloom_processors::types;
 
 use crate::args::TuneArgs;
 use crate::failure::{Failure, check_folder};
@@ -53,7 +54,7 @@ pub fn run(args: &TuneArgs) -> Result<String, Failure> {
 
 /// The largest canvas.
 fn picture_size(network: &Network) -> [u32; 2] {
-    let canvases = network.processors().filter(|processor| processor.type_id() == "canvas");
+    let canvases = network.processors().filter(|processor| processor.type_id() == types::CANVAS);
     let sizes = canvases.filter_map(|canvas| canvas.properties().array::<2>("size").ok());
     let larger = |a: [f64; 2], b: [f64; 2]| if b[0] * b[1] > a[0] * a[1] { b } else { a };
     sizes.reduce(larger).map_or(DEFAULT_SIZE, |size| size.map(|side| (side as u32).max(1)))

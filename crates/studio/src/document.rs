@@ -1,4 +1,4 @@
-//! The network being edited: its file, its history, and whether it is saved.
+//! The network being edited: its file, and whether it is saved.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -6,23 +6,13 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayloom_network::{LoadError, Network, Registry, Warning};
 
-/// Steps that can be undone at most; a step is a snapshot, which shares nothing but is small.
-const HISTORY: usize = 500;
-
-/// A state to go back to, and what was done to leave it.
-struct Step {
-    before: Network,
-    label: String,
-    /// Edits with the same key, one right after the other, are one step: a drag, a text being typed.
-    key: Option<String>,
-}
+use crate::history::History;
 
 /// The network being edited. Every change goes through [`Document::edit`], so every change can be undone.
 pub struct Document {
     network: Network,
     path: Option<PathBuf>,
-    undo: Vec<Step>,
-    redo: Vec<Step>,
+    history: History,
     /// Text of the network now, with whole paths.
     current: String,
     /// That text as last saved or loaded; `None` when there is no such file any more.
@@ -40,7 +30,7 @@ impl Document {
     fn of(network: Network, path: Option<PathBuf>) -> Self {
         let current = network.to_text(None);
         let saved = Some(current.clone());
-        Self { network, path, undo: Vec::new(), redo: Vec::new(), current, saved, revision: new_revision() }
+        Self { network, path, history: History::default(), current, saved, revision: new_revision() }
     }
 
     /// Loads a network file; the warnings are about things kept but not understood.
@@ -136,51 +126,43 @@ impl Document {
         let before = std::mem::replace(&mut self.network, after);
         self.current = text;
         self.revision = new_revision();
-        self.redo.clear();
-        let merges = key.is_some() && self.undo.last().is_some_and(|last| last.key == key);
-        if !merges {
-            self.undo.push(Step { before, label: label.to_owned(), key });
-            let surplus = self.undo.len().saturating_sub(HISTORY);
-            self.undo.drain(..surplus);
-        }
+        self.history.record(before, label, key);
         Ok(result)
     }
 
     /// Ends merging: the next edit is a step of its own.
     pub fn settle(&mut self) {
-        if let Some(last) = self.undo.last_mut() {
-            last.key = None;
-        }
+        self.history.settle();
     }
 
     /// What undo would take back.
     pub fn undo_label(&self) -> Option<&str> {
-        self.undo.last().map(|step| step.label.as_str())
+        self.history.undo_label()
     }
 
     /// What redo would do again.
     pub fn redo_label(&self) -> Option<&str> {
-        self.redo.last().map(|step| step.label.as_str())
+        self.history.redo_label()
     }
 
-    /// Takes the last step back.
+    /// Takes the last step back. Whether there was one.
     pub fn undo(&mut self) -> bool {
-        let step = self.undo.pop();
-        step.map(|step| self.travel(step)).map(|left| self.redo.push(left)).is_some()
+        let travelled = self.history.undo(&mut self.network);
+        self.arrive(travelled)
     }
 
-    /// Does the last step taken back again.
+    /// Does the last step taken back again. Whether there was one.
     pub fn redo(&mut self) -> bool {
-        let step = self.redo.pop();
-        step.map(|step| self.travel(step)).map(|left| self.undo.push(left)).is_some()
+        let travelled = self.history.redo(&mut self.network);
+        self.arrive(travelled)
     }
 
-    /// Goes where a step leads and returns the step back.
-    fn travel(&mut self, step: Step) -> Step {
-        let left = std::mem::replace(&mut self.network, step.before);
-        self.current = self.network.to_text(None);
-        self.revision = new_revision();
-        Step { before: left, label: step.label, key: None }
+    fn arrive(&mut self, travelled: bool) -> bool {
+        if travelled {
+            self.current = self.network.to_text(None);
+            self.revision = new_revision();
+        }
+        travelled
     }
 }
 

@@ -10,11 +10,11 @@ use rayloom_gpu::{Gpu, GpuError};
 use rayloom_network::{
     Address, Backend, Evaluator, Facts, Job, Level, Network, Outputs, ProcessError, Report, Request, Run, Sinks,
 };
-use rayloom_processors::{Data, Image, Picture, Runner, Trace, snippet_revision};
+use rayloom_processors::{Data, Image, Picture, Runner, Trace, snippet_revision, types};
 use rayloom_volume::Progress;
 use rayloom_wgsl::Validated;
 
-use crate::probe::{Ray, TRAVERSAL};
+use crate::probe::Ray;
 
 /// Lets orders in a hurry end the evaluation of one that is not.
 ///
@@ -337,7 +337,7 @@ fn work(mut backend: Telling, tasks: &Receiver<Task>, wake: &impl Fn()) {
 
 /// The ray traversals of a network.
 fn traversals(network: &Network) -> impl Iterator<Item = &str> {
-    network.processors().filter(|processor| processor.type_id() == TRAVERSAL).map(|processor| processor.id())
+    network.processors().filter(|processor| processor.type_id() == types::RAY_TRAVERSAL).map(|processor| processor.id())
 }
 
 fn shaders(network: &Network, runner: &mut Runner) -> BTreeMap<String, Arc<Validated>> {

@@ -3,12 +3,10 @@
 use std::collections::{BTreeSet, VecDeque};
 
 use rayloom_network::{Address, Network};
+use rayloom_processors::types::RAY_TRAVERSAL;
 
-use crate::panels::Pane;
+use crate::pane::Pane;
 use crate::session::Session;
-
-/// Id of the type of the processors that walk rays.
-pub const TRAVERSAL: &str = "ray_traversal";
 
 /// A ray of a ray traversal.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,7 +91,7 @@ pub fn traversals(network: &Network, processor: &str) -> Vec<String> {
     let mut found = Vec::new();
     while let Some(id) = queue.pop_front() {
         let Some(processor) = network.processor(&id).filter(|_| seen.insert(id.clone())) else { continue };
-        if processor.type_id() == TRAVERSAL {
+        if processor.type_id() == RAY_TRAVERSAL {
             found.push(id);
         } else {
             queue.extend(network.inputs(&id).map(|connection| connection.from.processor.clone()));

@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 
 use egui::{Button, ComboBox, Context, DragValue, Frame, Grid, Id, Key, Modal, RichText};
 use rayloom_network::Processor;
+use rayloom_processors::types::CANVAS;
 use rayloom_processors::write_picture;
 
 use crate::dialogs::{Dialogs, Question};
-use crate::session::{CANVAS, Session, Severity};
+use crate::session::{Session, Severity};
 
 /// The largest side of a picture, pixels; devices have no larger textures.
 const LARGEST: u32 = 16384;

@@ -5,13 +5,15 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use rayloom_network::{Address, EditError, Network, Processor, Registry, Request, Sinks, Value, Warning};
+use rayloom_processors::types::CANVAS;
 
 use crate::dialogs::Chooser;
 use crate::display::Display;
 use crate::document::Document;
 use crate::engine::Engine;
 use crate::inspect::Inspection;
-use crate::panels::{Navigation, Pane};
+use crate::navigation::Navigation;
+use crate::pane::Pane;
 use crate::probe::Probe;
 use crate::quality::Quality;
 
@@ -44,9 +46,6 @@ pub struct Message {
     /// When.
     pub when: Instant,
 }
-
-/// Id of the type of the processors that show a picture.
-pub const CANVAS: &str = "canvas";
 
 /// Messages kept at most.
 const MESSAGES: usize = 200;

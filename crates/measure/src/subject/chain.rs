@@ -1,13 +1,9 @@
 //! The processors behind the picture of a ray traversal.
 
 use rayloom_network::{Address, Network, Processor};
+use rayloom_processors::types::{ENTRY_EXIT_POINTS, RAY_TRAVERSAL};
 
 use crate::MeasureError;
-
-/// Id of the processor type that walks rays.
-const TRAVERSAL: &str = "ray_traversal";
-/// Id of the processor type that gives it entry and exit points.
-const VIEW: &str = "entry_exit_points";
 
 /// A ray traversal with what feeds it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -45,7 +41,7 @@ impl Chain {
         let (volume, entry) = (source(traversal, "volume")?, source(traversal, "entry")?);
         let labels = source(traversal, "labels").unwrap_or_else(|_| volume.clone());
         let view = entry.processor.clone();
-        if network.processor(&view).is_none_or(|processor| processor.type_id() != VIEW) {
+        if network.processor(&view).is_none_or(|processor| processor.type_id() != ENTRY_EXIT_POINTS) {
             return Err(MeasureError::Subject(format!(
                 "The entry points of `{traversal}` come from {entry}, which is not of an entry/exit points processor, so there \
                  is no camera to move: feed it from one."
@@ -74,7 +70,7 @@ fn image_at(network: &Network, port: &Address) -> Result<Address, MeasureError> 
     let declaration = processor.declaration();
     let is_outport = declaration.is_some_and(|declaration| declaration.outport(&port.item).is_some());
     match is_outport {
-        true if processor.type_id() == TRAVERSAL => Ok(port.clone()),
+        true if processor.type_id() == RAY_TRAVERSAL => Ok(port.clone()),
         true => Err(MeasureError::Subject(format!(
             "{port} is not an image of a ray traversal but of a {}: {}",
             processor.type_id(),
@@ -93,7 +89,7 @@ fn only_image(network: &Network) -> Result<Address, MeasureError> {
 }
 
 fn traversals(network: &Network) -> Vec<&str> {
-    network.processors().filter(|processor| processor.type_id() == TRAVERSAL).map(Processor::id).collect()
+    network.processors().filter(|processor| processor.type_id() == RAY_TRAVERSAL).map(Processor::id).collect()
 }
 
 fn offer(network: &Network) -> String {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use rayloom_gpu::Gpu;
 use rayloom_network::{Address, Camera, Network};
+use rayloom_processors::types;
 use rayloom_reference::exact;
 use rayloom_volume::Volume;
 use serde_json::{Value as Json, json};
@@ -33,18 +34,18 @@ impl Lab {
         let text = json!({
             "rayloom": 1,
             "processors": [
-                {"id": "source", "type": "volume_generator"},
-                {"id": "proxy", "type": "cube_proxy"},
-                {"id": "view", "type": "entry_exit_points"},
-                {"id": "traversal", "type": "ray_traversal", "properties": {
+                {"id": "source", "type": types::VOLUME_GENERATOR},
+                {"id": "proxy", "type": types::CUBE_PROXY},
+                {"id": "view", "type": types::ENTRY_EXIT_POINTS},
+                {"id": "traversal", "type": types::RAY_TRAVERSAL, "properties": {
                     "termination_error": 0, "reference_length": 1, "sampling": "trilinear",
                 }},
             ],
             "connections": ["source.volume -> proxy.volume", "proxy.geometry -> view.geometry",
                 "source.volume -> traversal.volume", "view.entry -> traversal.entry", "view.exit -> traversal.exit"],
         });
-        let types = Arc::new(rayloom_processors::registry());
-        let loaded = Network::from_text(&text.to_string(), Path::new(""), &types);
+        let registry = Arc::new(rayloom_processors::registry());
+        let loaded = Network::from_text(&text.to_string(), Path::new(""), &registry);
         let network = loaded.map_err(|error| MeasureError::Subject(error.to_string()))?.network;
         let mut base = Setting::saved();
         add(&mut base, settings)?;

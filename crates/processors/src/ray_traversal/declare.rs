@@ -13,7 +13,7 @@ use super::{OUTPORTS, SAMPLES};
 pub(super) const MOST_SAMPLES: i64 = 1 << 24;
 
 pub(super) fn declaration(library: &Library) -> Declaration {
-    let declaration = Declaration::new("ray_traversal", "Ray traversal", "Rendering")
+    let declaration = Declaration::new(crate::types::RAY_TRAVERSAL, "Ray traversal", "Rendering")
         .help(
             "Walks the ray of every pixel from its entry to its exit point. What happens at a sample is up to the snippets \
              in its slots; the shader is assembled from them and holds nothing that they do not need.",

@@ -4,7 +4,8 @@ use egui::{Context, Key, KeyboardShortcut, Modifiers, ThemePreference, ViewportC
 
 use super::{Command, Menu, Scope};
 use crate::app::Studio;
-use crate::panels::{self, NetworkAction, Pane};
+use crate::pane::Pane;
+use crate::panels::{self, NetworkAction};
 use crate::screenshot::Screenshot;
 use crate::session::Mode;
 

@@ -10,7 +10,7 @@ use serde_json::Value as Json;
 
 use super::folders::Folders;
 use super::keeper::Keeper;
-use crate::panels::Pane;
+use crate::pane::Pane;
 
 /// Names what could not be used, and the reason.
 type Problem = String;

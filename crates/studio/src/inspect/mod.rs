@@ -20,7 +20,7 @@ use rayloom_gpu::{GpuError, PipelineCache};
 use rayloom_network::{Address, Readiness, readiness};
 use rayloom_processors::{Data, Image, VolumeData};
 
-use crate::panels::Pane;
+use crate::pane::Pane;
 use crate::session::Session;
 use crate::theme;
 use digest::Digest;

@@ -9,13 +9,14 @@ use egui::{
 use rayloom_measure::{Chain, FAINTEST_ERROR, MeasureError, error_colors};
 use rayloom_network::Address;
 use rayloom_processors::Image;
+use rayloom_processors::types::RAY_TRAVERSAL;
 use rayloom_reference::{Rectangle, Reference};
 
 use crate::comparison::{Answer, Outcome, Question, image_at};
 use crate::display::Look;
 use crate::inspect::image::paint;
 use crate::inspect::text::number;
-use crate::panels::Pane;
+use crate::pane::Pane;
 use crate::panels::tuning::TuningControl;
 use crate::session::Session;
 use crate::task::Task;
@@ -129,7 +130,7 @@ impl AccuracyPanel {
 
     /// Which ray traversal, where there are several.
     fn choose_image(&mut self, ui: &mut egui::Ui, session: &Session) {
-        let traversals = session.network().processors().filter(|processor| processor.type_id() == "ray_traversal");
+        let traversals = session.network().processors().filter(|processor| processor.type_id() == RAY_TRAVERSAL);
         let images: Vec<Address> = traversals.map(|processor| Address::new(processor.id(), "image")).collect();
         if self.chosen.as_ref().is_none_or(|chosen| !images.contains(chosen)) {
             self.chosen = images.first().cloned();

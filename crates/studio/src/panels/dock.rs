@@ -2,7 +2,7 @@
 
 use egui_tiles::{Container, LinearDir, Tile, TileId, Tiles, Tree};
 
-use super::Pane;
+use crate::pane::Pane;
 
 /// Opens a pane, or brings it to the front if it is open. Pictures lie side by side, beside the canvas, shaders in tabs
 /// with the network, everything else in tabs with the properties.

@@ -29,6 +29,7 @@ pub use preset::refused;
 pub use show::Visualization;
 
 use rayloom_network::{Address, Network, Preset, PropertyDecl, PropertyKind, closest};
+use rayloom_processors::types::CANVAS;
 use serde_json::Value as Json;
 
 /// What visualization mode shows.
@@ -150,7 +151,7 @@ impl Exposed {
 
 /// Ids of the processors that show an image.
 pub fn canvases(network: &Network) -> impl Iterator<Item = &str> {
-    network.processors().filter(|processor| processor.type_id() == "canvas").map(|processor| processor.id())
+    network.processors().filter(|processor| processor.type_id() == CANVAS).map(|processor| processor.id())
 }
 
 /// The declaration of a property, or a sentence about what is missing.

@@ -11,6 +11,7 @@ use rayloom_processors::{Data, Image};
 use super::cube;
 use super::walk::Walker;
 use crate::inspect::Pixel;
+use crate::navigation::Navigation;
 use crate::pointer::dragged_by;
 use crate::session::{Session, Severity};
 use crate::views::VIEWS;
@@ -24,21 +25,6 @@ const KEPT: f64 = 0.02;
 const SLOWEST: f64 = 0.03;
 /// Longest time that one frame counts for, seconds.
 const LONGEST_FRAME: f64 = 0.1;
-
-/// What the user prefers, in all canvases.
-#[derive(Clone, Copy, Debug)]
-pub struct Navigation {
-    /// A camera let go while it turns goes on for a while.
-    pub inertia: bool,
-    /// Canvases show the orientation cube.
-    pub cube: bool,
-}
-
-impl Default for Navigation {
-    fn default() -> Self {
-        Self { inertia: false, cube: true }
-    }
-}
 
 /// What keys and the menu do.
 #[derive(Clone, Copy)]

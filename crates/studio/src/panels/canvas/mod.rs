@@ -10,13 +10,13 @@ use std::sync::Arc;
 use egui::{Align2, Color32, FontId, Rect, Sense, Vec2};
 use rayloom_network::{Network, PropertyKind, Value};
 use rayloom_processors::Image;
+use rayloom_processors::types::{CANVAS, SLICE_VIEW};
 
 use super::probe;
 use crate::display::Look;
 use crate::inspect::image::paint;
-use crate::session::{CANVAS, Session};
+use crate::session::Session;
 use camera::Held;
-pub use camera::Navigation;
 
 /// What keys and the pointer do, for the list of keys.
 pub const GESTURES: &[(&str, &str)] = &[
@@ -146,7 +146,7 @@ fn behind(network: &Network, canvas: &str) -> Option<Behind> {
             continue;
         }
         let processor = network.processor(&id)?;
-        if processor.type_id() == "slice_view" {
+        if processor.type_id() == SLICE_VIEW {
             return Some(Behind::Slice(id));
         }
         let declared = processor.declaration().into_iter().flat_map(|declaration| &declaration.properties);

@@ -3,6 +3,7 @@
 use egui::{Color32, Key, PointerButton, Pos2, Rect, Stroke};
 use rayloom_network::{Address, Network, Value};
 use rayloom_processors::Data;
+use rayloom_processors::types::SLICE_VIEW;
 use rayloom_volume::Volume;
 
 use super::number;
@@ -75,7 +76,7 @@ fn axes(network: &Network, processor: &str) -> Option<[usize; 3]> {
 fn siblings(network: &Network, processor: &str) -> Vec<(String, usize)> {
     let source = |id: &str| network.inputs(id).next().map(|connection| connection.from.clone());
     let mine = source(processor);
-    let others = network.processors().filter(|other| other.type_id() == "slice_view" && other.id() != processor);
+    let others = network.processors().filter(|other| other.type_id() == SLICE_VIEW && other.id() != processor);
     others
         .filter(|other| source(other.id()) == mine)
         .filter_map(|other| Some((other.id().to_owned(), axes(network, other.id())?[0])))

@@ -4,12 +4,13 @@ use std::collections::BTreeSet;
 
 use egui::Pos2;
 use rayloom_network::{Address, Connection, EditError, Network, Refusal, Value};
+use rayloom_processors::types::VOLUME_SOURCE;
 
 use super::NetworkPanel;
 use super::drag::Drag;
 use super::frames::{self, FrameEdit};
 use super::menus::LooseLink;
-use crate::panels::Pane;
+use crate::pane::Pane;
 use crate::session::{Session, Severity};
 use crate::wiring::{self, End};
 
@@ -149,7 +150,7 @@ fn add(session: &mut Session, action: Action) {
         }),
         Action::AddFile(file, point) => select_new(session, "add a volume", |network| -> Result<_, EditError> {
             let place = free_place(network, at(point));
-            let id = wiring::add(network, "volume_source", place)?;
+            let id = wiring::add(network, VOLUME_SOURCE, place)?;
             network.set_property(&id, "file", Value::Text(file))?;
             Ok(one(id))
         }),

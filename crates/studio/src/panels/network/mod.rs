@@ -22,7 +22,7 @@ use rayloom_network::{Address, Connection, EditError};
 
 use crate::catalog::NewProcessor;
 use crate::inspect;
-use crate::panels::Pane;
+use crate::pane::Pane;
 use crate::session::Session;
 use crate::theme;
 use crate::wiring::End;

@@ -2,7 +2,7 @@
 
 use rayloom_network::{Address, EditError, Network, Value};
 
-use crate::panels::Pane;
+use crate::pane::Pane;
 use crate::session::{Session, Severity};
 use crate::visualization::Change;
 use crate::wiring;

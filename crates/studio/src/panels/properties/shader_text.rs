@@ -6,7 +6,7 @@ use rayloom_wgsl::Slot;
 
 use super::action::Action;
 use super::editor::Surroundings;
-use crate::panels::Pane;
+use crate::pane::Pane;
 use crate::panels::shader_editor::{code, in_use, problems};
 use crate::theme;
 
