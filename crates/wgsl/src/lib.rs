@@ -25,6 +25,7 @@ mod assemble;
 mod choice;
 mod declaration;
 mod diagnostic;
+mod footprint;
 mod highlight;
 mod interface;
 mod lexer;

@@ -4,8 +4,9 @@ use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 use crate::assemble::Assembled;
 use crate::diagnostic::Diagnostic;
+use crate::footprint;
 use crate::interface::Interface;
-use crate::library::Library;
+use crate::library::{Library, SourceKind};
 
 /// A shader that naga accepts, ready for a device.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +20,8 @@ pub struct Validated {
 /// Validates an assembled shader.
 ///
 /// # Errors
-/// What the parser or validator refused, at file, line and column of the snippet it came from.
+/// What the parser or validator refused, or what is too large for drivers, at file, line and column of the snippet it came
+/// from.
 pub fn validate(library: &Library, assembled: Assembled) -> Result<Validated, Box<Diagnostic>> {
     let module = naga::front::wgsl::parse_str(&assembled.text).map_err(|error| {
         let mut message = error.message().to_owned();
@@ -40,8 +42,24 @@ pub fn validate(library: &Library, assembled: Assembled) -> Result<Validated, Bo
         let location = error.spans().last().map(|(span, _)| span.location(&assembled.text));
         Box::new(locate(library, &assembled, location, causes(error.as_inner())))
     })?;
+    if assembled.features.has("own")
+        && let Some((span, message)) = footprint::excess(&module, &info, own_places(library, &assembled))
+    {
+        return Err(Box::new(locate(library, &assembled, Some(span.location(&assembled.text)), message)));
+    }
     let interface = Interface::of(&module, &info);
     Ok(Validated { assembled, interface })
+}
+
+/// Tells which places of an assembled text come from a user's own snippets.
+fn own_places<'a>(library: &'a Library, assembled: &'a Assembled) -> impl Fn(naga::Span) -> bool + 'a {
+    let ends: Vec<usize> = assembled.text.match_indices('\n').map(|(at, _)| at).collect();
+    move |span| {
+        let Some(start) = span.to_range().map(|range| range.start) else { return false };
+        let line = ends.partition_point(|end| *end < start);
+        let source = assembled.map.lines().get(line).and_then(|origin| library.source(&origin.file));
+        source.is_some_and(|source| source.kind != SourceKind::BuiltIn)
+    }
 }
 
 fn causes(error: &dyn std::error::Error) -> String {

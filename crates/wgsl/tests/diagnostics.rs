@@ -296,6 +296,42 @@ fn monstrous_texts_are_refused_in_time() {
     }
 }
 
+/// Arrays over which a driver takes minutes, or crashes, and code that grows by calls are refused before any driver sees them.
+#[test]
+fn what_no_driver_can_bear_is_refused_where_it_stands() {
+    let bytes = |total: u64| {
+        format!(
+            "arrays and other large values take {total} bytes for every ray (a function counts as often as it is called), but \
+             a shader may have 1024; make them smaller"
+        )
+    };
+    let table = "fn table(x: f32) -> f32 { var a: array<f32, 32>; a[u32(x)] = x; return a[1]; }";
+    let doubled: String =
+        (1..24).map(|n| format!("fn f{n}(x: f32) -> f32 {{ return f{0}(x) + f{0}(x + 1.0); }}\n", n - 1)).collect();
+    let nested: String = (1..12).map(|n| format!("struct S{n} {{ a: S{0}, b: S{0} }}\n", n - 1)).collect();
+    for (module, body, place, message) in [
+        ("", "    var a: array<vec4f, 256>; a[u32(medium.x)] = medium;", "5:5", bytes(4096)),
+        ("", "    var a: array<vec4f, 100000000>; a[u32(medium.x)] = medium;", "5:5", bytes(1_600_000_000)),
+        ("var<private> a: array<array<f32, 100>, 100>;", "    a[u32(medium.x)][1] = medium.x;", "3:1", bytes(40_000)),
+        ("const a = array<vec4f, 100>();", "    let x = a[u32(medium.x)];", "5:13", bytes(1600)),
+        (table, &format!("    let x = 0.0{};", " + table(medium.x)".repeat(9)), "3:27", bytes(9 * 128)),
+        (&format!("struct S0 {{ x: vec4f }}\n{nested}"), "    var s: S11;", "17:5", bytes(32_768)),
+    ] {
+        let found = shading_with(module, body).unwrap_or_else(|| panic!("must be refused: {module} {body}"));
+        assert_eq!(found.lines().next(), Some(format!("edited/shading.wgsl:{place}: {message}").as_str()), "{body}");
+    }
+    let found = shading_with(&format!("fn f0(x: f32) -> f32 {{ return x; }}\n{doubled}"), "    let x = f23(medium.x);");
+    let found = found.expect("must be refused");
+    assert!(found.contains("call this function less often") && found.starts_with("edited/shading.wgsl:"), "{found}");
+
+    for (module, body) in [
+        ("", "    var a: array<vec4f, 64>; a[u32(medium.x) % 64u] = medium;"),
+        (table, "    for (var i = 0u; i < 100u; i++) { let x = table(medium.x); }"),
+    ] {
+        assert_eq!(shading_with(module, body), None, "{body}");
+    }
+}
+
 #[test]
 fn files_that_are_no_text_are_named_with_the_place() {
     let folder = tempfile::tempdir().expect("a folder");
