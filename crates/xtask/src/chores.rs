@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use crate::adapter;
 use crate::command::{cargo, program, root, run, succeeds};
 use crate::window::{self, Outcome};
+use crate::{licences, unused};
 
 /// The network behind the picture in the README.
 const FLAGSHIP: &str = "networks/brain.json";
@@ -56,14 +57,47 @@ pub fn test() -> Result<(), String> {
     ];
     let mut results: Vec<_> =
         steps.into_iter().map(|(name, mut command)| (name, run(&mut command).map(|()| Outcome::Passed))).collect();
+    results.extend(dependency_checks());
     eprintln!("> a window on an X server without a monitor");
     results.push(("window", window::check(&rayloom)));
+    summary(&results)
+}
+
+/// Checks the dependencies alone.
+pub fn dependencies() -> Result<(), String> {
+    summary(&dependency_checks())
+}
+
+fn dependency_checks() -> Vec<(&'static str, Result<Outcome, String>)> {
+    eprintln!("> dependencies");
+    vec![
+        ("licences", licences::check().map(|()| Outcome::Passed)),
+        ("unused dependencies", unused::check().map(|()| Outcome::Passed)),
+        ("advisories", advisories()),
+    ]
+}
+
+/// Says how all steps went, and fails if one did.
+fn summary(results: &[(&str, Result<Outcome, String>)]) -> Result<(), String> {
     eprintln!("\nSummary");
-    for (name, result) in &results {
+    for (name, result) in results {
         eprintln!("  {name:<22}{}", told(result));
     }
     let failed: Vec<&str> = results.iter().filter(|(_, result)| result.is_err()).map(|(name, _)| *name).collect();
     if failed.is_empty() { Ok(()) } else { Err(format!("failed: {}", failed.join(", "))) }
+}
+
+/// Looks for known faults in dependencies with cargo-deny, where it and its database are; nothing is downloaded.
+fn advisories() -> Result<Outcome, String> {
+    if !succeeds(&mut cargo(&["deny", "--version"])) {
+        return Ok(Outcome::Skipped("cargo-deny is not installed; to do so: cargo install cargo-deny".into()));
+    }
+    let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
+    let home = home.or_else(|| std::env::home_dir().map(|home| home.join(".cargo")));
+    if !home.is_some_and(|home| home.join("advisory-dbs").exists()) {
+        return Ok(Outcome::Skipped("there is no database of advisories; to fetch it: cargo deny fetch".into()));
+    }
+    run(&mut cargo(&["deny", "--offline", "check"])).map(|()| Outcome::Passed)
 }
 
 /// Opens a real window and uses it.

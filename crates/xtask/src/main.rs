@@ -3,7 +3,9 @@
 mod adapter;
 mod chores;
 mod command;
+mod licences;
 mod packages;
+mod unused;
 mod window;
 
 use std::process::ExitCode;
@@ -12,7 +14,8 @@ const HELP: &str = "\
 Chores of the project: cargo xtask CHORE
 
   start     build, render the flagship network to out/brain.png and say where it is; open it where there is a display
-  test      check formatting, lint, run all tests, build the documentation, open a window
+  test      check formatting, lint, check dependencies, run all tests, build the documentation, open a window
+  deps      check the licences of dependencies, advisories, and that all are used (part of test)
   golden    render the golden images anew (look at the difference before you commit it)
   docs      write docs/processors and docs/snippets anew from the declarations
   tutorial  go through docs/TUTORIAL.md in a window without a screen and renew its pictures
@@ -28,6 +31,7 @@ fn main() -> ExitCode {
     let result = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["start"] => chores::start(),
         ["test"] => chores::test(),
+        ["deps"] => chores::dependencies(),
         ["golden"] => chores::golden(),
         ["docs"] => chores::docs(),
         ["tutorial"] => chores::tutorial(),
