@@ -52,8 +52,9 @@ fn code(folder: &Path) -> Result<String, String> {
             text += &code(&path)?;
         } else if path.extension().is_some_and(|extension| extension == "rs") {
             let lines = read(&path)?;
-            let elsewhere = lines.split("#[path = \"").skip(1).filter_map(|rest| rest.split_once('"'));
-            for folder in elsewhere.filter_map(|(name, _)| folder.join(name).parent().map(Path::to_owned)) {
+            let elsewhere =
+                lines.lines().filter_map(|line| line.trim().strip_prefix("#[path = \"")?.strip_suffix("\"]"));
+            for folder in elsewhere.filter_map(|name| folder.join(name).parent().map(Path::to_owned)) {
                 text += &code(&folder)?;
             }
             text.extend(
