@@ -87,6 +87,12 @@ pub enum Refusal {
 /// # Errors
 /// The reason, as a sentence.
 pub fn can_connect(network: &Network, from: &Address, to: &Address) -> Result<(), Refusal> {
+    check_ends(network, from, to)?;
+    check_cycle(network, from, to)
+}
+
+/// Everything but cycles, which take a look at the whole network.
+fn check_ends(network: &Network, from: &Address, to: &Address) -> Result<(), Refusal> {
     let source = find(network, &from.processor)?;
     let target = find(network, &to.processor)?;
     let outport = outport(source, from)?;
@@ -99,15 +105,15 @@ pub fn can_connect(network: &Network, from: &Address, to: &Address) -> Result<()
         let connection = Box::new(Connection { from: from.clone(), to: to.clone() });
         return Err(Refusal::Type { connection, found: outport.port_type, expected });
     }
-    check_place(network, from, to, inport.several)?;
-    check_cycle(network, from, to)
+    check_place(network, from, to, inport.several)
 }
 
-/// As [`can_connect`], but for a connection from a file, which may end at placeholders.
+/// As [`can_connect`], but for a connection from a file, which may end at placeholders. Cycles are looked for once all
+/// connections are there, with [`first_in_cycle`].
 pub(crate) fn can_keep(network: &Network, from: &Address, to: &Address) -> Result<(), Refusal> {
     let (source, target) = (find(network, &from.processor)?, find(network, &to.processor)?);
     if !source.is_placeholder() && !target.is_placeholder() {
-        return can_connect(network, from, to);
+        return check_ends(network, from, to);
     }
     if !source.is_placeholder() {
         outport(source, from)?;
@@ -116,8 +122,29 @@ pub(crate) fn can_keep(network: &Network, from: &Address, to: &Address) -> Resul
     if from.processor == to.processor {
         return Err(Refusal::Itself(from.processor.clone()));
     }
-    check_place(network, from, to, several)?;
-    check_cycle(network, from, to)
+    check_place(network, from, to, several)
+}
+
+/// The position of the first connection that closes a cycle with those before it, and the refusal.
+pub(crate) fn first_in_cycle(network: &Network) -> Option<(usize, Refusal)> {
+    let count = network.processors().count();
+    if network.order().len() == count {
+        return None;
+    }
+    let connections = network.connections();
+    let with_first = |number: usize| {
+        let connections = connections[..number].iter().cloned().collect();
+        Network { connections, ..network.clone() }
+    };
+    // The more connections, the more cycles: the first number of them that is too many is found by halving.
+    let (mut fine, mut too_many) = (0, connections.len());
+    while too_many - fine > 1 {
+        let number = fine.midpoint(too_many);
+        let without_cycle = with_first(number).order().len() == count;
+        *(if without_cycle { &mut fine } else { &mut too_many }) = number;
+    }
+    let Connection { from, to } = &connections[fine];
+    check_cycle(&with_first(fine), from, to).err().map(|refusal| (fine, refusal))
 }
 
 fn find<'a>(network: &'a Network, id: &str) -> Result<&'a Processor, Refusal> {
@@ -149,7 +176,7 @@ fn placeholder(processor: &Processor) -> Refusal {
 
 /// Refuses a second identical connection, and a second one into an inport for one.
 fn check_place(network: &Network, from: &Address, to: &Address, several: bool) -> Result<(), Refusal> {
-    let mut into = network.connections.iter().filter(|connection| connection.to == *to);
+    let mut into = network.inputs(&to.processor).filter(|connection| connection.to == *to);
     if into.clone().any(|connection| connection.from == *from) {
         return Err(Refusal::Already(from.clone(), to.clone()));
     }
@@ -209,8 +236,6 @@ impl Network {
     /// Removes a connection; `false` if there was none.
     pub fn disconnect(&mut self, from: impl Into<Address>, to: impl Into<Address>) -> bool {
         let gone = Connection { from: from.into(), to: to.into() };
-        let before = self.connections.len();
-        self.connections.retain(|connection| *connection != gone);
-        self.connections.len() < before
+        self.connections.retain(|connection| *connection != gone)
     }
 }

@@ -129,12 +129,14 @@ impl Network {
             return Ok(());
         }
         self.check_new_id(new)?;
-        let ends = self.connections.iter_mut().flat_map(|c| [&mut c.from, &mut c.to]);
-        let ends = ends.chain(self.links.iter_mut().flat_map(|l| [&mut l.a, &mut l.b]));
-        let ids = ends.map(|address| &mut address.processor).chain(self.processors.iter_mut().map(|p| &mut p.id));
-        for place in ids.filter(|place| *place == id) {
-            *place = new.to_owned();
-        }
+        let rename = |place: &mut String| {
+            if place == id {
+                new.clone_into(place);
+            }
+        };
+        self.connections.change(|c| [&mut c.from, &mut c.to].into_iter().for_each(|end| rename(&mut end.processor)));
+        self.links.change(|l| [&mut l.a, &mut l.b].into_iter().for_each(|end| rename(&mut end.processor)));
+        self.processors.change(|p| rename(&mut p.id));
         Ok(())
     }
 
@@ -181,17 +183,22 @@ impl Network {
     }
 
     /// Sets a property from JSON, as the command line's `--set` does. A camera or light may leave out fields: they keep their
-    /// current value (a new projection replaces the old one). A relative path of a file stays relative to the working directory.
+    /// current value (a new projection replaces the old one), and one field of it may be named alone (`camera.fov_degrees`).
+    /// A relative path of a file stays relative to the working directory.
     ///
     /// # Errors
     /// As [`Network::set_property`], with the closest names for a mistyped one.
     pub fn set_from_json(&mut self, processor: &str, property: &str, json: &Json) -> Result<Vec<Address>, EditError> {
         let address = Address::new(processor, property);
+        if let (Err(EditError::UnknownProperty { .. }), Some((whole, field))) =
+            (self.declared(&address), property.rsplit_once('.'))
+            && self.declared(&Address::new(processor, whole)).is_ok_and(|decl| has_fields(&decl))
+        {
+            return self.set_from_json(processor, whole, &serde_json::json!({ field: json }));
+        }
         let decl = self.declared(&address)?;
-        let merged = match decl.kind {
-            PropertyKind::Camera | PropertyKind::Light => merge(self.current(&address, &decl).to_json(), json),
-            _ => json.clone(),
-        };
+        let merged =
+            if has_fields(&decl) { merge(self.current(&address, &decl).to_json(), json) } else { json.clone() };
         let value = decl.parse(&merged).map_err(|error| EditError::Value { address, error: Box::new(error) })?;
         self.set_property(processor, property, value)
     }
@@ -242,6 +249,11 @@ impl Network {
             None => Ok(()),
         }
     }
+}
+
+/// Whether the value is an object whose fields can be set one by one.
+fn has_fields(decl: &PropertyDecl) -> bool {
+    matches!(decl.kind, PropertyKind::Camera | PropertyKind::Light)
 }
 
 /// The fields of `part` over those of `whole`; of the two projections of a camera only the new one stays.

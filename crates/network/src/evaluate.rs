@@ -10,7 +10,7 @@ use crate::plan::Plan;
 use crate::port::Facts;
 use crate::processor::Declaration;
 use crate::property::{Level, PropertyDecl};
-use crate::readiness::{causes, chain};
+use crate::readiness::{causes, chains};
 use crate::report::{Outcome, Reason, Report, Request, Run};
 use crate::signature::{Signature, diff};
 
@@ -247,10 +247,11 @@ impl<B: Backend> Evaluator<B> {
             Some(Standing::Failed) => self.error(id).map(|error| format!("{id} failed: {error}")).into_iter().collect(),
             _ => Vec::new(),
         };
+        let mut chains = chains(network, plan.order.iter().map(String::as_str), &causes);
         for id in &plan.order {
             match self.standings.get(id) {
                 Some(Standing::NotReady(_)) => {
-                    report.not_ready.insert(id.clone(), chain(network, id, &causes));
+                    report.not_ready.insert(id.clone(), chains.remove(id.as_str()).unwrap_or_default());
                 }
                 Some(Standing::Failed) => report.failed.extend(self.error(id).map(|error| (id.clone(), error.clone()))),
                 _ => {}

@@ -113,9 +113,7 @@ impl Network {
     /// Removes a link, whichever way round it is named; the values stay. `false` if there was none.
     pub fn unlink(&mut self, a: impl Into<Address>, b: impl Into<Address>) -> bool {
         let (a, b) = (a.into(), b.into());
-        let before = self.links.len();
-        self.links.retain(|link| !link.joins(&a, &b));
-        self.links.len() < before
+        self.links.retain(|link| !link.joins(&a, &b))
     }
 
     /// The property itself, then all that are linked to it directly or through others, each once.
@@ -124,7 +122,7 @@ impl Network {
         let mut seen: BTreeSet<Address> = group.iter().cloned().collect();
         let mut next = 0;
         while next < group.len() {
-            for link in &self.links {
+            for link in self.links.naming(&group[next].processor) {
                 if let Some(other) = link.other(&group[next])
                     && seen.insert(other.clone())
                 {
@@ -141,7 +139,7 @@ impl Network {
         if a == b {
             return Err(LinkRefusal::Itself(a.clone()));
         }
-        if self.links.iter().any(|link| link.joins(a, b)) {
+        if self.links.naming_both(&a.processor, &b.processor).any(|link| link.joins(a, b)) {
             return Err(LinkRefusal::Already(a.clone(), b.clone()));
         }
         Ok(())

@@ -1,12 +1,13 @@
 //! The network: processors, connections, links. What can be asked of it; how it is changed is in `edit`.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, VecDeque};
 use std::fmt;
 use std::sync::Arc;
 
 use serde_json::{Map, Value as Json};
 
 use crate::frame::Frame;
+use crate::indexed::Indexed;
 use crate::link::Link;
 use crate::names::Address;
 use crate::processor::{Declaration, ProcessorType};
@@ -27,9 +28,9 @@ pub struct Network {
     /// What visualization mode shows; kept as it is, null when nothing was set.
     pub visualization: Json,
     pub(crate) registry: Arc<Registry>,
-    pub(crate) processors: Vec<Processor>,
-    pub(crate) connections: Vec<Connection>,
-    pub(crate) links: Vec<Link>,
+    pub(crate) processors: Indexed<Processor>,
+    pub(crate) connections: Indexed<Connection>,
+    pub(crate) links: Indexed<Link>,
     pub(crate) frames: Vec<Frame>,
 }
 
@@ -183,9 +184,9 @@ impl Network {
             description: String::new(),
             visualization: Json::Null,
             registry,
-            processors: Vec::new(),
-            connections: Vec::new(),
-            links: Vec::new(),
+            processors: Indexed::default(),
+            connections: Indexed::default(),
+            links: Indexed::default(),
             frames: Vec::new(),
         }
     }
@@ -197,22 +198,22 @@ impl Network {
 
     /// All processors, in the order they were added.
     pub fn processors(&self) -> impl DoubleEndedIterator<Item = &Processor> {
-        self.processors.iter()
+        self.processors.as_slice().iter()
     }
 
     /// The processor of this id.
     pub fn processor(&self, id: &str) -> Option<&Processor> {
-        self.processors.iter().find(|processor| processor.id == id)
+        self.processors.naming(id).next()
     }
 
     /// All connections, in the order in which they were made.
     pub fn connections(&self) -> &[Connection] {
-        &self.connections
+        self.connections.as_slice()
     }
 
     /// The connections that end at a processor.
-    pub fn inputs<'a>(&'a self, processor: &'a str) -> impl Iterator<Item = &'a Connection> {
-        self.connections.iter().filter(move |connection| connection.to.processor == processor)
+    pub fn inputs<'a>(&'a self, processor: &'a str) -> impl Iterator<Item = &'a Connection> + Clone {
+        self.connections.naming(processor).filter(move |connection| connection.to.processor == processor)
     }
 
     /// The connections that end at a processor, in the order in which it sees them: sorted by the processor that they come
@@ -225,12 +226,12 @@ impl Network {
 
     /// The connections that begin at a processor.
     pub fn outputs<'a>(&'a self, processor: &'a str) -> impl Iterator<Item = &'a Connection> {
-        self.connections.iter().filter(move |connection| connection.from.processor == processor)
+        self.connections.naming(processor).filter(move |connection| connection.from.processor == processor)
     }
 
     /// All links.
     pub fn links(&self) -> &[Link] {
-        &self.links
+        self.links.as_slice()
     }
 
     /// The value of a property; `None` if there is none of this name.
@@ -238,27 +239,28 @@ impl Network {
         self.processor(processor)?.value(property)
     }
 
-    /// Ids of all processors, every one after those that feed it; otherwise in the order they were added.
+    /// Ids of all processors, every one after those that feed it; otherwise in the order they were added: as if the list were
+    /// gone through again and again, each time for what has all that feeds it. Processors of a cycle would be left out.
     pub fn order(&self) -> Vec<&str> {
-        let mut done: BTreeSet<&str> = BTreeSet::new();
-        let mut order = Vec::with_capacity(self.processors.len());
-        let mut waiting: Vec<&str> = self.processors.iter().map(Processor::id).collect();
-        while !waiting.is_empty() {
-            let before = order.len();
-            waiting.retain(|id| {
-                let ready = self.inputs(id).all(|connection| done.contains(connection.from.processor.as_str()));
-                if ready {
-                    done.insert(id);
-                    order.push(*id);
+        let places: HashMap<&str, usize> = self.ids().enumerate().map(|(place, id)| (id, place)).collect();
+        let ids: Vec<&str> = self.ids().collect();
+        let mut missing: Vec<usize> = ids.iter().map(|id| self.inputs(id).count()).collect();
+        let mut rounds = vec![0_usize; ids.len()];
+        let mut ready: VecDeque<usize> = (0..ids.len()).filter(|&place| missing[place] == 0).collect();
+        let mut order = Vec::with_capacity(ids.len());
+        while let Some(place) = ready.pop_front() {
+            order.push(place);
+            let next = self.outputs(ids[place]).filter_map(|connection| places.get(connection.to.processor.as_str()));
+            for &next in next {
+                rounds[next] = rounds[next].max(rounds[place] + usize::from(place > next));
+                missing[next] -= 1;
+                if missing[next] == 0 {
+                    ready.push_back(next);
                 }
-                !ready
-            });
-            // Connections never form a cycle; should one slip in, its processors are left out rather than waited for.
-            if order.len() == before {
-                break;
             }
         }
-        order
+        order.sort_by_key(|&place| (rounds[place], place));
+        order.into_iter().map(|place| ids[place]).collect()
     }
 
     /// An id for a new processor: `base`, else `base_2`, `base_3`, ...
@@ -275,11 +277,11 @@ impl Network {
     }
 
     pub(crate) fn processor_mut(&mut self, id: &str) -> Option<&mut Processor> {
-        self.processors.iter_mut().find(|processor| processor.id == id)
+        self.processors.first_mut(id)
     }
 
     pub(crate) fn ids(&self) -> impl Iterator<Item = &str> {
-        self.processors.iter().map(Processor::id)
+        self.processors().map(Processor::id)
     }
 }
 

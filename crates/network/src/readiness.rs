@@ -1,6 +1,7 @@
 //! Whether a processor can run, and if not, why: a chain down to the cause.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, HashSet, VecDeque};
+use std::rc::Rc;
 
 use crate::network::{Network, Processor};
 use crate::property::{PropertyDecl, PropertyKind};
@@ -28,9 +29,23 @@ pub fn readiness(network: &Network, processor: &str) -> Readiness {
     if network.processor(processor).is_none() {
         return Readiness::NotReady(vec![format!("there is no processor `{processor}`")]);
     }
-    let reasons =
-        chain(network, processor, &|id| network.processor(id).map(|p| causes(network, p)).unwrap_or_default());
-    if reasons.is_empty() { Readiness::Ready } else { Readiness::NotReady(reasons) }
+    match not_ready(network, &[processor]).remove(processor) {
+        Some(reasons) => Readiness::NotReady(reasons),
+        None => Readiness::Ready,
+    }
+}
+
+/// Those of `processors`, and of what feeds them, that are not ready, with the reasons as in [`Readiness::NotReady`].
+pub fn not_ready<'a>(network: &'a Network, processors: &[&'a str]) -> BTreeMap<&'a str, Vec<String>> {
+    let mut needed: HashSet<&str> = HashSet::new();
+    let mut stack = processors.to_vec();
+    while let Some(id) = stack.pop() {
+        if needed.insert(id) {
+            stack.extend(network.inputs(id).map(|connection| connection.from.processor.as_str()));
+        }
+    }
+    let order = network.order().into_iter().filter(|id| needed.contains(id));
+    chains(network, order, &|id| network.processor(id).map(|p| causes(network, p)).unwrap_or_default())
 }
 
 /// Why a processor itself cannot run, whatever feeds it.
@@ -54,19 +69,76 @@ pub(crate) fn causes(network: &Network, processor: &Processor) -> Vec<String> {
     causes
 }
 
-/// The causes at a processor and at everything that feeds it, each with the way to it. A processor that feeds another in
-/// several ways is followed once.
-pub(crate) fn chain(network: &Network, processor: &str, causes: &dyn Fn(&str) -> Vec<String>) -> Vec<String> {
-    let mut reasons = Vec::new();
-    let mut seen = BTreeSet::from([processor]);
-    let mut stack = vec![(processor, String::new())];
-    while let Some((id, way)) = stack.pop() {
-        reasons.extend(causes(id).into_iter().map(|cause| format!("{way}{cause}")));
-        // The first connection is followed first, so it is pushed last.
-        let inputs: Vec<_> = network.inputs(id).filter(|c| seen.insert(c.from.processor.as_str())).collect();
-        stack.extend(
-            inputs.into_iter().rev().map(|c| (c.from.processor.as_str(), format!("{way}{id} waits for {}; ", c.from))),
-        );
+/// How many causes are listed for one processor; the others are listed for those that feed it.
+const MOST_CAUSES: usize = 20;
+/// How many steps of a long way to a cause are written out at either end of it.
+const STEPS: usize = 3;
+
+/// A cause, and the way to it from a processor that waits.
+#[derive(Clone)]
+struct Chain {
+    cause: Rc<str>,
+    /// The first steps, the nearest last, and then the steps at the cause, the nearest to it first.
+    begin: VecDeque<String>,
+    end: Vec<String>,
+    /// Steps between the two.
+    between: usize,
+}
+
+impl Chain {
+    fn after(&self, step: &str) -> Self {
+        let mut chain = self.clone();
+        if chain.begin.len() + chain.between == 0 && chain.end.len() < STEPS {
+            chain.end.push(step.to_owned());
+            return chain;
+        }
+        chain.begin.push_back(step.to_owned());
+        if chain.begin.len() > STEPS {
+            chain.begin.pop_front();
+            chain.between += 1;
+        }
+        chain
     }
-    reasons
+
+    fn text(&self) -> String {
+        let mut parts: Vec<String> = self.begin.iter().rev().cloned().collect();
+        if self.between > 0 {
+            parts.push(format!("... ({} further processors wait)", self.between));
+        }
+        parts.extend(self.end.iter().rev().cloned());
+        parts.push(self.cause.to_string());
+        parts.join("; ")
+    }
+}
+
+/// For every processor of `order`, in which each comes after those that feed it: the causes at it and at everything that feeds
+/// it, each once and with the way to it. Processors without any are left out.
+pub(crate) fn chains<'a>(
+    network: &'a Network,
+    order: impl IntoIterator<Item = &'a str>,
+    causes: &dyn Fn(&str) -> Vec<String>,
+) -> BTreeMap<&'a str, Vec<String>> {
+    let mut found: BTreeMap<&str, Vec<Chain>> = BTreeMap::new();
+    for id in order {
+        let own = causes(id).into_iter().map(|cause| Chain {
+            cause: cause.into(),
+            begin: VecDeque::new(),
+            end: Vec::new(),
+            between: 0,
+        });
+        let mut chains: Vec<Chain> = own.collect();
+        for connection in network.inputs(id) {
+            let step = format!("{id} waits for {}", connection.from);
+            for chain in found.get(connection.from.processor.as_str()).into_iter().flatten() {
+                let known = chains.iter().any(|other| Rc::ptr_eq(&other.cause, &chain.cause));
+                if !known && chains.len() < MOST_CAUSES {
+                    chains.push(chain.after(&step));
+                }
+            }
+        }
+        if !chains.is_empty() {
+            found.insert(id, chains);
+        }
+    }
+    found.into_iter().map(|(id, chains)| (id, chains.iter().map(Chain::text).collect())).collect()
 }

@@ -94,7 +94,7 @@ pub struct RenderArgs {
     /// The network file (JSON).
     pub network: PathBuf,
     /// Set a property first; may be repeated, in this order. The value is JSON, or a bare word for a text.
-    /// Of a camera or light only the fields to change need be given.
+    /// Of a camera or light only the fields to change need be given, or one by its name: view.camera.fov_degrees=30.
     #[arg(long, value_name = "PROCESSOR.PROPERTY=JSON", value_parser = setting)]
     pub set: Vec<Setting>,
     /// Apply a preset of the network, before anything is set.

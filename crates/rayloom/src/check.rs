@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use rayloom_network::{Network, Processor, PropertyKind, Readiness, closest, readiness};
+use rayloom_network::{Network, Processor, PropertyKind, closest, not_ready};
 use rayloom_processors::snippet_library;
 use rayloom_wgsl::{Library, Slot};
 
@@ -18,11 +18,8 @@ pub fn run(file: &Path) -> Result<String, Failure> {
     let network = network_file::open(file, &[])?;
     let sinks: Vec<&str> = network.processors().filter(|p| is_sink(p)).map(Processor::id).collect();
     let mut problems: Vec<String> = Vec::new();
-    for sink in &sinks {
-        if let Readiness::NotReady(reasons) = readiness(&network, sink) {
-            problems.extend(reasons);
-        }
-    }
+    let mut waiting = not_ready(&network, &sinks);
+    problems.extend(sinks.iter().filter_map(|sink| waiting.remove(sink)).flatten());
     problems.extend(wrong_properties(&network));
     if sinks.is_empty() {
         problems

@@ -11,7 +11,7 @@ use thiserror::Error;
 
 use super::VERSION;
 use super::paths::resolve;
-use crate::connect::can_keep;
+use crate::connect::{can_keep, first_in_cycle};
 use crate::edit::EditError;
 use crate::frame::Frame;
 use crate::json::{Node, Strict, ValueError};
@@ -137,6 +137,9 @@ fn version(root: &Node<'_>) -> Result<i64, ValueError> {
     }
 }
 
+/// What is expected in place of a connection that is refused.
+const FITTING: &str = "a connection that fits";
+
 struct Loader {
     network: Network,
     warnings: Vec<Warning>,
@@ -167,8 +170,11 @@ impl Loader {
         for node in root.required("processors", "an array of processors")?.array()? {
             self.processor(&node)?;
         }
-        for node in root.field("connections")?.map_or(Ok(Vec::new()), |node| node.array())? {
-            self.connection(&node)?;
+        let connections = root.field("connections")?.map_or(Ok(Vec::new()), |node| node.array())?;
+        connections.iter().try_for_each(|node| self.connection(node))?;
+        if let Some((place, refusal)) = first_in_cycle(&self.network) {
+            let node = &connections[place];
+            return Err(misfit(node, node.string()?, &refusal, FITTING));
         }
         for node in root.field("links")?.map_or(Ok(Vec::new()), |node| node.array())? {
             self.link(&node)?;
@@ -295,8 +301,7 @@ impl Loader {
         let Some((from, to)) = ends else {
             return Err(node.error(format!("{text:?}"), "\"processor.outport -> processor.inport\""));
         };
-        can_keep(&self.network, &from, &to)
-            .map_err(|refusal| misfit(node, text, &refusal, "a connection that fits"))?;
+        can_keep(&self.network, &from, &to).map_err(|refusal| misfit(node, text, &refusal, FITTING))?;
         self.network.connections.push(Connection { from, to });
         Ok(())
     }

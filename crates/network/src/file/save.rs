@@ -46,12 +46,13 @@ impl Network {
                 document.push_json(key, text.as_str());
             }
         }
-        let processors = self.processors.iter().map(|processor| Piece::Object(write_processor(processor, folder)));
+        let processors = self.processors().map(|processor| Piece::Object(write_processor(processor, folder)));
         document.push("processors", Piece::List(processors.collect()));
-        let connections = self.connections.iter().map(|connection| Piece::Plain(connection.to_string().into()));
+        let connections = self.connections().iter().map(|connection| Piece::Plain(connection.to_string().into()));
         document.push("connections", Piece::List(connections.collect()));
-        if !self.links.is_empty() {
-            let links = self.links.iter().map(|link| Piece::Plain(vec![link.a.to_string(), link.b.to_string()].into()));
+        if !self.links().is_empty() {
+            let links =
+                self.links().iter().map(|link| Piece::Plain(vec![link.a.to_string(), link.b.to_string()].into()));
             document.push("links", Piece::List(links.collect()));
         }
         if !self.frames.is_empty() {

@@ -194,3 +194,22 @@ fn a_type_cannot_be_registered_twice_or_with_a_wrong_default() {
     let wrong = Plain(Declaration::new("wrong", "Wrong", "Test").property(rate));
     insta::assert_snapshot!(registry.add(std::sync::Arc::new(wrong)).unwrap_err(), @"the declaration of processor type `wrong` is wrong: the default of property `rate`: found 0, expected a number from 1 to 2.");
 }
+
+#[test]
+fn single_fields_of_cameras_and_lights_can_be_set() {
+    let n = &mut pipeline();
+    n.set_from_json("view", "camera.fov_degrees", &json!(30)).unwrap();
+    n.set_from_json("view", "light.direction", &json!([0, 0, 1])).unwrap();
+    let value = |n: &Network, property: &str| n.value("view", property).unwrap().to_json();
+    assert_eq!(value(n, "camera")["fov_degrees"], json!(30.0));
+    assert_eq!(value(n, "light")["direction"], json!([0.0, 0.0, 1.0]));
+    n.set_from_json("view", "camera.orthographic_height", &json!(2)).unwrap();
+    assert_eq!(value(n, "camera").get("fov_degrees"), None, "the new projection replaces the old one");
+    let camera = Camera::default().to_json();
+    for field in camera.as_object().unwrap().keys() {
+        let same = camera[field].clone();
+        n.set_from_json("view", &format!("camera.{field}"), &same).unwrap_or_else(|error| panic!("{error}"));
+    }
+    insta::assert_snapshot!(set_error(n, "view", "camera.positon", json!([0, 0, 1])), @"view.camera cannot be set: positon: found an unknown field, expected a known one. Did you mean `position`?");
+    insta::assert_snapshot!(set_error(n, "view", "camra.position", json!([0, 0, 1])), @"`view` (a traversal) has no property `camra.position`. There are: `camera`, `light`, `rate`, `transfer`, `tint`, `early`, `shading`.");
+}

@@ -187,3 +187,34 @@ fn a_missing_file_is_named() {
     let error = Network::load(Path::new("/nowhere/x.json"), &registry()).unwrap_err();
     insta::assert_snapshot!(error, @"/nowhere/x.json: the network cannot be read: No such file or directory (os error 2).");
 }
+
+/// A cycle is found although it is looked for once, and the connection that closes it is the one that is named.
+#[test]
+fn the_connection_that_closes_a_cycle_is_named() {
+    let processors: Vec<_> = (0..5).map(|i| json!({"id": format!("c{i}"), "type": "compositor"})).collect();
+    let connection = |from: usize, to: usize| json!(format!("c{from}.image -> c{to}.layers"));
+    let ends = [(3, 4), (2, 3), (1, 2), (0, 1), (3, 1), (4, 0), (0, 2)];
+    let connections: Vec<_> = ends.into_iter().map(|(from, to)| connection(from, to)).collect();
+    let text = json!({"rayloom": 1, "processors": processors, "connections": connections}).to_string();
+    let error = Network::from_text(&text, Path::new(""), &registry()).expect_err("a cycle").to_string();
+    insta::assert_snapshot!(error, @r#": connections[4]: found "c3.image -> c1.layers" (the connection would close a cycle: c1 -> c2 -> c3 -> c1), expected a connection that fits."#);
+}
+
+/// The way to a cause is told by its ends, however long it is, and the order does not depend on how the file is sorted.
+#[test]
+fn long_ways_to_a_cause_are_shortened() {
+    let mut network = Network::new(registry());
+    network.add("canvas", "canvas").unwrap();
+    for i in (0..100).rev() {
+        network.add("filter", &format!("f{i}")).unwrap();
+    }
+    network.connect(("f99", "image_out"), ("canvas", "image")).unwrap();
+    for i in 1..100 {
+        let (from, to) = (format!("f{}", i - 1), format!("f{i}"));
+        network.connect((from.as_str(), "image_out"), (to.as_str(), "image")).unwrap();
+    }
+    let expected: Vec<String> = (0..100).map(|i| format!("f{i}")).chain(["canvas".into()]).collect();
+    assert_eq!(network.order(), expected);
+    let Readiness::NotReady(reasons) = readiness(&network, "canvas") else { panic!("nothing feeds f0") };
+    insta::assert_snapshot!(reasons.join("\n"), @"canvas waits for f99.image_out; f99 waits for f98.image_out; f98 waits for f97.image_out; ... (94 further processors wait); f3 waits for f2.image_out; f2 waits for f1.image_out; f1 waits for f0.image_out; f0: input `image` is not connected");
+}
