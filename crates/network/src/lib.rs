@@ -35,7 +35,7 @@ pub use camera::{Camera, CameraError, Projection};
 pub use connect::{Refusal, can_connect};
 pub use edit::EditError;
 pub use evaluate::Evaluator;
-pub use file::{LoadError, Loaded, SaveError, VERSION, Warning, write_whole};
+pub use file::{LoadError, Loaded, SaveError, VERSION, Warning};
 pub use frame::Frame;
 pub use job::{Backend, Input, Inputs, Job, Mark, Outputs, ProcessError};
 pub use json::ValueError;

@@ -1,6 +1,6 @@
 //! Image files: PNG for looking at, OpenEXR and NumPy arrays for computing with.
 
-use std::io::{self, Cursor};
+use std::io::{self, BufReader, Cursor};
 use std::path::{Path, PathBuf};
 
 use exr::prelude::{AnyChannel, AnyChannels, Encoding, FlatSamples, Layer, LayerAttributes, SmallVec, WritableImage};
@@ -122,7 +122,8 @@ pub fn write_npy(path: &Path, picture: &Picture) -> Result<(), ImageFileError> {
 /// Reads a PNG or OpenEXR file as premultiplied colours. PNG numbers are taken as they are, 0 to 1.
 pub fn read_picture(path: &Path) -> Result<Picture, ImageFileError> {
     let io_error = |source| ImageFileError::Io { path: path.to_owned(), source };
-    let reader = ImageReader::open(path).map_err(io_error)?.with_guessed_format().map_err(io_error)?;
+    let file = BufReader::new(rayloom_files::open(path).map_err(io_error)?);
+    let reader = ImageReader::new(file).with_guessed_format().map_err(io_error)?;
     let premultiplied = reader.format() == Some(image::ImageFormat::OpenExr);
     let decoded = reader.decode().map_err(|error| contents(path, error))?.into_rgba32f();
     let multiply = |[r, g, b, a]: [f32; 4]| {
@@ -154,5 +155,5 @@ fn contents(path: &Path, error: impl ToString) -> ImageFileError {
 }
 
 fn store(path: &Path, bytes: Vec<u8>) -> Result<(), ImageFileError> {
-    std::fs::write(path, bytes).map_err(|source| ImageFileError::Io { path: path.to_owned(), source })
+    rayloom_files::write(path, &bytes).map_err(|source| ImageFileError::Io { path: path.to_owned(), source })
 }

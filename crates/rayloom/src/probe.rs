@@ -38,7 +38,7 @@ pub fn run(args: &ProbeArgs) -> Result<String, Failure> {
     }
     let table = table(&trace);
     let Some(file) = &args.output else { return Ok(table) };
-    std::fs::write(file, table)
+    rayloom_files::write(file, table.as_bytes())
         .map_err(|error| Failure::new(format!("{} cannot be written: {error}", file.display())))?;
     Ok(format!("{}: {} of {} samples\n", file.display(), trace.samples.len(), trace.count))
 }

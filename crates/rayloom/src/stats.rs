@@ -73,7 +73,7 @@ impl Stats {
     /// The file cannot be written.
     pub fn write(&self, file: &Path) -> Result<(), Failure> {
         let text = serde_json::to_string_pretty(self)? + "\n";
-        std::fs::write(file, text)
+        rayloom_files::write(file, text.as_bytes())
             .map_err(|error| Failure::new(format!("{}: cannot be written: {error}", file.display())))
     }
 }

@@ -154,7 +154,7 @@ impl Library {
 /// The text of a snippet file.
 fn read(path: &Path) -> Result<String, Diagnostic> {
     let file = path.display().to_string();
-    let bytes = std::fs::read(path)
+    let bytes = rayloom_files::read(path, limits::LONGEST as u64)
         .map_err(|error| Diagnostic::new(&file, 0, 0, format!("the snippet cannot be read: {error}")))?;
     String::from_utf8(bytes).map_err(|error| {
         let good = error.utf8_error().valid_up_to();

@@ -33,7 +33,7 @@ pub(crate) fn write_files(
     std::fs::create_dir_all(folder).map_err(write_error(folder))?;
     let written = files.into_iter().map(|(name, text)| {
         let path = folder.join(name);
-        std::fs::write(&path, text).map_err(write_error(&path))?;
+        rayloom_files::write(&path, text.as_bytes()).map_err(write_error(&path))?;
         Ok(path)
     });
     written.collect()

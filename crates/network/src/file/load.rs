@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -21,6 +20,9 @@ use crate::network::{Connection, Network, Processor, Setting};
 use crate::property::{PropertyDecl, PropertyKind};
 use crate::registry::Registry;
 use crate::value::Value;
+
+/// The longest network file that is read, bytes: a hundred thousand processors, and no device that never ends.
+const LONGEST: u64 = 64 << 20;
 
 /// A network file that could not be loaded.
 #[derive(Debug, Error)]
@@ -97,7 +99,8 @@ impl Network {
     /// # Errors
     /// Says the file and the line and column (what is not JSON) or the JSON path, what was found and what was expected.
     pub fn load(file: &Path, registry: &Arc<Registry>) -> Result<Loaded, LoadError> {
-        let text = fs::read_to_string(file).map_err(|source| LoadError::Read { file: file.to_owned(), source })?;
+        let text = rayloom_files::read_text(file, LONGEST)
+            .map_err(|source| LoadError::Read { file: file.to_owned(), source })?;
         Self::from_text(&text, file, registry)
     }
 

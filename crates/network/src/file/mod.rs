@@ -23,7 +23,7 @@ mod paths;
 mod save;
 
 pub use load::{LoadError, Loaded, Warning};
-pub use save::{SaveError, write_whole};
+pub use save::SaveError;
 
 /// The version of the format that is written. Older ones are read, newer ones refused.
 pub const VERSION: i64 = 1;

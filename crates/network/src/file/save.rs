@@ -1,7 +1,7 @@
 //! Writing a network file.
 
 use std::fs;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value as Json};
@@ -32,9 +32,9 @@ impl Network {
     /// The folder or file cannot be written.
     pub fn save(&self, file: &Path) -> Result<(), SaveError> {
         let fail = |source| SaveError { file: file.to_owned(), source };
-        let (target, folder) = behind_links(file).map_err(fail)?;
-        let text = self.to_text(Some(&folder));
-        write_beside(&target, &folder, text.as_bytes()).map_err(fail)
+        // Through a symbolic link, the file behind it is replaced, so that paths are relative to the folder of that.
+        let target = fs::canonicalize(file).or_else(|_| std::path::absolute(file)).map_err(fail)?;
+        rayloom_files::write(file, self.to_text(target.parent()).as_bytes()).map_err(fail)
     }
 
     /// The text of the network's file. Paths of files are relative to `folder` if they can be.
@@ -115,40 +115,4 @@ fn write_properties(processor: &Processor, folder: Option<&Path>) -> Map<String,
         out.insert(id.clone(), json);
     }
     out
-}
-
-/// Writes a file, all or nothing: a reader sees the old file or the new one, never a part.
-///
-/// # Errors
-/// The folder or file cannot be written.
-pub fn write_whole(file: &Path, bytes: &[u8]) -> io::Result<()> {
-    let (target, folder) = behind_links(file)?;
-    write_beside(&target, &folder, bytes)
-}
-
-/// The file to be replaced and its folder: through a symbolic link, the file behind it is replaced and the link stays.
-fn behind_links(file: &Path) -> io::Result<(PathBuf, PathBuf)> {
-    let target = fs::canonicalize(file).or_else(|_| std::path::absolute(file))?;
-    let folder = target.parent().ok_or(io::ErrorKind::IsADirectory)?.to_owned();
-    Ok((target, folder))
-}
-
-/// Writes beside the target, then renames over it.
-fn write_beside(target: &Path, folder: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".").suffix(".saving");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // A new file gets what the user's umask leaves, as with any other program.
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    let mut file = builder.tempfile_in(folder)?;
-    if let Ok(metadata) = fs::metadata(target) {
-        file.as_file().set_permissions(metadata.permissions())?;
-    }
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    file.persist(target).map_err(|error| error.error)?;
-    Ok(())
 }

@@ -77,10 +77,7 @@ pub fn save_user_snippet(slot: Slot, name: &str, text: &str) -> Result<PathBuf, 
     let folder =
         user_folder().ok_or("there is no place for snippets of your own; name a folder in RAYLOOM_SNIPPETS")?;
     let path = folder.join(&file);
-    let partial = folder.join(format!("{file}.part"));
-    let written = std::fs::create_dir_all(&folder)
-        .and_then(|()| std::fs::write(&partial, text))
-        .and_then(|()| std::fs::rename(&partial, &path));
+    let written = std::fs::create_dir_all(&folder).and_then(|()| rayloom_files::write(&path, text.as_bytes()));
     written.map_err(|error| format!("{} cannot be written: {error}", path.display()))?;
     reload_snippets();
     Ok(path)

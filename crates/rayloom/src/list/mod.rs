@@ -46,7 +46,10 @@ pub fn run(args: &ListArgs) -> Result<String, Failure> {
 fn write_pages(folder: &Path, pages: &[Page]) -> Result<String, Failure> {
     for page in pages {
         let path = folder.join(&page.path);
-        let written = path.parent().map_or(Ok(()), fs::create_dir_all).and_then(|()| fs::write(&path, &page.text));
+        let written = path
+            .parent()
+            .map_or(Ok(()), fs::create_dir_all)
+            .and_then(|()| rayloom_files::write(&path, page.text.as_bytes()));
         written.map_err(|error| Failure::new(format!("{}: cannot be written: {error}", path.display())))?;
     }
     Ok(format!("{}: {} pages\n", folder.display(), pages.len()))

@@ -2,7 +2,7 @@
 
 use super::digest::Digest;
 use crate::image::Image;
-use std::io::{self, Write};
+use std::io;
 use std::path::Path;
 
 /// "RAYLOOM" and the version of the layout.
@@ -15,11 +15,7 @@ const NUMBERS_PER_PIXEL: usize = 5;
 pub(super) fn read(path: &Path, key: u128, size: [u32; 2]) -> Option<Image> {
     let count = size[0] as usize * size[1] as usize;
     let expected = (HEADER_WORDS + count * NUMBERS_PER_PIXEL + 2) * WORD;
-    // A file of another length is not even read.
-    if std::fs::metadata(path).ok()?.len() != expected as u64 {
-        return None;
-    }
-    let bytes = std::fs::read(path).ok()?;
+    let bytes = rayloom_files::read(path, expected as u64).ok()?;
     let words: Vec<u64> = bytes.as_chunks::<WORD>().0.iter().map(|word| u64::from_le_bytes(*word)).collect();
     if words.len() * WORD != expected {
         return None;
@@ -45,11 +41,7 @@ pub(super) fn write(path: &Path, key: u128, image: &Image) -> io::Result<()> {
     let mut words: Vec<u64> = header(key, image.size).into_iter().chain(numbers).collect();
     words.extend(halves(check_sum(&words)));
     let bytes: Vec<u8> = words.into_iter().flat_map(u64::to_le_bytes).collect();
-    let mut file = tempfile::NamedTempFile::new_in(folder)?;
-    file.write_all(&bytes)?;
-    file.as_file().sync_all()?;
-    file.persist(path)?;
-    Ok(())
+    rayloom_files::write(path, &bytes)
 }
 
 fn header(key: u128, size: [u32; 2]) -> [u64; HEADER_WORDS] {

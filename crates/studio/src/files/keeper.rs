@@ -5,8 +5,6 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use rayloom_network::write_whole;
-
 /// How long nothing may have changed before the file is written.
 const QUIET: Duration = Duration::from_secs(1);
 /// How old a change may become while others follow it.
@@ -117,7 +115,7 @@ fn write(file: &Path, text: &str) -> std::io::Result<()> {
     if let Some(folder) = file.parent() {
         std::fs::create_dir_all(folder)?;
     }
-    write_whole(file, text.as_bytes())
+    rayloom_files::write(file, text.as_bytes())
 }
 
 #[cfg(test)]

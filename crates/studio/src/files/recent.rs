@@ -6,12 +6,13 @@ use std::task::Poll;
 use std::time::{Duration, Instant};
 
 use egui::Context;
-use rayloom_network::write_whole;
 
 use crate::later::Later;
 
 /// Files remembered at most.
 const MOST: usize = 12;
+/// The longest list, bytes.
+const LONGEST: u64 = 1 << 20;
 /// How old the knowledge may be which of them exist.
 const FRESH: Duration = Duration::from_secs(5);
 
@@ -87,7 +88,7 @@ fn update(file: &Path, new: &[PathBuf]) -> Result<Vec<Recent>, String> {
     static TURN: Mutex<()> = Mutex::new(());
     let _turn = TURN.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
     let fail = |error: &dyn std::fmt::Display| format!("{}: the list of recent files: {error}", file.display());
-    let known: Vec<PathBuf> = match std::fs::read_to_string(file) {
+    let known: Vec<PathBuf> = match rayloom_files::read_text(file, LONGEST) {
         // A list that cannot be read is begun anew.
         Ok(text) => serde_json::from_str(&text).unwrap_or_default(),
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => Vec::new(),
@@ -102,7 +103,7 @@ fn update(file: &Path, new: &[PathBuf]) -> Result<Vec<Recent>, String> {
     if paths != known {
         let text = serde_json::to_string_pretty(&paths).map_err(|error| fail(&error))?;
         let folder = file.parent().map_or(Ok(()), std::fs::create_dir_all);
-        folder.and_then(|()| write_whole(file, text.as_bytes())).map_err(|error| fail(&error))?;
+        folder.and_then(|()| rayloom_files::write(file, text.as_bytes())).map_err(|error| fail(&error))?;
     }
     Ok(paths.into_iter().map(|path| Recent { exists: path.is_file(), path }).collect())
 }

@@ -16,6 +16,9 @@ use serde::{Deserialize, Serialize};
 use super::keeper::Keeper;
 use crate::document::Document;
 
+/// The longest copy, bytes: as text within JSON, a network is at most twice as long as in its own file.
+const LONGEST: u64 = 128 << 20;
+
 /// What a copy holds.
 #[derive(Serialize, Deserialize)]
 struct Copy {
@@ -199,6 +202,6 @@ impl Abandoned {
 }
 
 fn read(file: &Path) -> Result<Copy, String> {
-    let text = std::fs::read_to_string(file).map_err(|error| error.to_string())?;
+    let text = rayloom_files::read_text(file, LONGEST).map_err(|error| error.to_string())?;
     serde_json::from_str(&text).map_err(|error| error.to_string())
 }

@@ -12,6 +12,9 @@ use super::folders::Folders;
 use super::keeper::Keeper;
 use crate::pane::Pane;
 
+/// The longest file of settings, bytes.
+const LONGEST: u64 = 1 << 20;
+
 /// Names what could not be used, and the reason.
 type Problem = String;
 
@@ -50,7 +53,7 @@ impl Settings {
     /// What was kept in the folders, and what of it cannot be used. Waits for the disk: for the time before there is a window.
     pub fn load(folders: &Folders) -> (Self, Vec<Problem>) {
         let file = file(folders);
-        match std::fs::read_to_string(&file) {
+        match rayloom_files::read_text(&file, LONGEST) {
             Ok(text) => Self::parse(&text, &file),
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => (Self::default(), Vec::new()),
             Err(error) => (Self::default(), vec![format!("{}: the settings cannot be read: {error}", file.display())]),

@@ -55,7 +55,7 @@ struct Source<'a> {
 impl<'a> Source<'a> {
     fn open(layout: &'a RawLayout, header: Blame<'a>, bytes: u64) -> Result<Self, ReadError> {
         let data = Blame { file: &layout.data_file };
-        let mut file = File::open(data.file).map_err(data.io("open the file with the voxels"))?;
+        let mut file = rayloom_files::open(data.file).map_err(data.io("open the file with the voxels"))?;
         let length = file.metadata().map_err(data.io("look up the size"))?.len();
         let start = start_of_data(&mut file, layout, data, length, bytes)?;
         let packed = length.saturating_sub(start);

@@ -1,6 +1,5 @@
 //! NIfTI-1 and NIfTI-2 (`nifti1.h`, `nifti2.h` of the Data Format Working Group), and their ancestor Analyze 7.5.
 
-use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -67,13 +66,13 @@ fn files(path: &Path) -> (PathBuf, PathBuf) {
 fn is_gzip(file: &Path) -> Result<bool, ReadError> {
     let blame = Blame { file };
     let mut magic = Vec::new();
-    let opened = File::open(file).map_err(blame.io("open it"))?;
+    let opened = rayloom_files::open(file).map_err(blame.io("open it"))?;
     opened.take(2).read_to_end(&mut magic).map_err(blame.io("read it"))?;
     Ok(magic == [0x1f, 0x8b])
 }
 
 fn header_bytes(blame: Blame<'_>) -> Result<Vec<u8>, ReadError> {
-    let file = File::open(blame.file).map_err(blame.io("open it"))?;
+    let file = rayloom_files::open(blame.file).map_err(blame.io("open it"))?;
     let mut bytes = Vec::new();
     let most = SIZE_2 as u64;
     let result = match is_gzip(blame.file)? {

@@ -1,6 +1,5 @@
 //! What the text headers have in common.
 
-use std::fs::File;
 use std::io::Read;
 
 use glam::DVec3;
@@ -14,7 +13,7 @@ const LONGEST_HEADER: u64 = 1 << 20;
 /// The first bytes of a file, as many as a text header may have.
 pub(super) fn head(blame: Blame<'_>) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
-    let file = File::open(blame.file).map_err(blame.io("open it"))?;
+    let file = rayloom_files::open(blame.file).map_err(blame.io("open it"))?;
     file.take(LONGEST_HEADER).read_to_end(&mut bytes).map_err(blame.io("read its header"))?;
     Ok(bytes)
 }

@@ -51,7 +51,7 @@ impl Drawing {
             save_as: Some("network.svg"),
         };
         self.dialogs.ask(who, context, &session.chooser, &question, move |path| {
-            std::fs::write(&path, drawing).map_err(|error| format!("{}: {error}", path.display()))?;
+            rayloom_files::write(&path, drawing.as_bytes()).map_err(|error| format!("{}: {error}", path.display()))?;
             Ok(path)
         });
     }

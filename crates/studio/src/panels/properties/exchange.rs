@@ -66,7 +66,7 @@ fn problem(path: &Path, error: &str) -> String {
 }
 
 fn write(path: &Path, json: &str) -> Exchanged {
-    match std::fs::write(path, json) {
+    match rayloom_files::write(path, json.as_bytes()) {
         Ok(()) => Exchanged::Written(Severity::Note, format!("wrote {}", path.display())),
         Err(error) => Exchanged::Written(Severity::Error, format!("{} cannot be written: {error}.", path.display())),
     }
@@ -74,11 +74,7 @@ fn write(path: &Path, json: &str) -> Exchanged {
 
 /// The value in a file.
 fn read(path: &Path, decl: &PropertyDecl) -> Result<Value, String> {
-    let size = std::fs::metadata(path).map_err(|error| error.to_string())?.len();
-    if size > LARGEST {
-        return Err(format!("the file has {size} bytes, far too many for this; choose one that was exported here."));
-    }
-    let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
+    let text = rayloom_files::read_text(path, LARGEST).map_err(|error| format!("{error}."))?;
     let json = serde_json::from_str(&text).map_err(|error| format!("this is no JSON: {error}."))?;
     decl.parse(&json).map_err(|error| error.to_string())
 }
