@@ -118,6 +118,18 @@ fn told(result: &Result<Outcome, String>) -> String {
     }
 }
 
+/// Tries damaged files of every kind for so many minutes, other ones every time.
+pub fn fuzz(minutes: &str) -> Result<(), String> {
+    let seconds: f64 = minutes.parse::<f64>().map_err(|_| format!("`{minutes}` is no number of minutes"))? * 60.0;
+    if !(1.0..=1e6).contains(&seconds) {
+        return Err(format!("{minutes} minutes are too short or too long; give at least 0.02"));
+    }
+    let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).map_or(1, |time| time.as_secs());
+    let mut test = cargo(&["test", "--package", "rayloom-tests", "--test", "fuzz", "--", "--nocapture"]);
+    test.env("RAYLOOM_FUZZ_SECONDS", (seconds as u64).to_string()).env("RAYLOOM_FUZZ_SEED", now.to_string());
+    run(&mut test)
+}
+
 /// Rewrites the golden images.
 pub fn golden() -> Result<(), String> {
     adapter::ensure(&build("dev")?)?;

@@ -16,6 +16,7 @@ Chores of the project: cargo xtask CHORE
   start     build, render the flagship network to out/brain.png and say where it is; open it where there is a display
   test      check formatting, lint, check dependencies, run all tests, build the documentation, open a window
   deps      check the licences of dependencies, advisories, and that all are used (part of test)
+  fuzz      try damaged files of every kind, 10 minutes a kind; --minutes N for another time
   golden    render the golden images anew (look at the difference before you commit it)
   docs      write docs/processors and docs/snippets anew from the declarations
   tutorial  go through docs/TUTORIAL.md in a window without a screen and renew its pictures
@@ -32,6 +33,8 @@ fn main() -> ExitCode {
         ["start"] => chores::start(),
         ["test"] => chores::test(),
         ["deps"] => chores::dependencies(),
+        ["fuzz"] => chores::fuzz("10"),
+        ["fuzz", "--minutes", minutes] => chores::fuzz(minutes),
         ["golden"] => chores::golden(),
         ["docs"] => chores::docs(),
         ["tutorial"] => chores::tutorial(),
