@@ -39,7 +39,7 @@ pub(super) struct Target {
 }
 
 /// The targets of the outputs, `None` for those that nothing uses.
-type Targets = [Option<Target>; OUTPORTS.len()];
+pub(super) type Targets = [Option<Target>; OUTPORTS.len()];
 
 /// What a run leaves behind.
 pub(super) struct Drawn {

@@ -5,6 +5,7 @@ mod choose;
 mod declare;
 mod dispatch;
 mod explain;
+mod finite;
 mod frame;
 mod gaps;
 mod idle;
@@ -150,6 +151,7 @@ impl RayTraversal {
         let shader = memory.shader(&plan.library, &plan.choice)?;
         let pass = dispatch::Pass { job, inputs: &inputs, plan: &plan, shader: &shader };
         let drawn = pass.run(context, memory)?;
+        notes.extend(finite::notes(&context.gpu, &plan, &drawn.targets)?);
         memory.last_run = Some(trace::LastRun::new(job, &inputs, plan, drawn.inputs)?);
 
         let mut outputs = Outputs::new();
