@@ -101,7 +101,8 @@ impl Workbench {
 
     /// Evaluates what the request asks for.
     pub fn evaluate(&mut self, request: &Request) -> Report {
-        self.evaluator.evaluate(&self.network, &mut self.runner, request)
+        let report = self.runner.evaluate(&mut self.evaluator, &self.network, request);
+        report.unwrap_or_else(|error| panic!("{error}"))
     }
 
     /// Evaluates and reads one image back.

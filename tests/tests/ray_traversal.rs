@@ -220,3 +220,53 @@ fn a_loop_without_an_end_is_told_and_can_be_mended() {
     }
     assert_eq!(errors(looping("while rounds < 100.0")), None);
 }
+
+/// What a snippet makes of nothing is told with the snippet, by the bits of the picture.
+#[test]
+fn pixels_that_are_not_finite_are_counted_and_the_snippet_is_named() {
+    let mut bench = Workbench::new(scene());
+    let mut notes = |red: &str| {
+        let text = format!(
+            "//! slot: shading\nfn shade(medium: vec4f, surface: Surface) -> vec4f {{\n    return vec4f({red}, medium.gba);\n}}\n"
+        );
+        bench.put("traversal.shading.text", text.into());
+        let picture = bench.picture("traversal", "image", SIZE);
+        let bad = picture.color.iter().filter(|pixel| pixel.iter().any(|channel| !channel.is_finite())).count();
+        (bad, bench.evaluator.last_run("traversal").map(|run| run.notes.join("\n")).unwrap_or_default())
+    };
+    assert_eq!(notes("medium.r"), (0, String::new()));
+    for (red, bits) in [("nothing", "0x7fc00000u"), ("infinity", "0x7f800000u")] {
+        // Constants of this kind are refused; the device does not know that alpha is no larger than 10000.
+        let (bad, note) = notes(&format!("bitcast<f32>({bits} | u32(medium.a > 10000.0))"));
+        assert!(bad > 100, "{red}: {bad}");
+        assert!(note.starts_with(&format!("{bad} of 4096 pixels of `image` are not finite numbers")), "{note}");
+        assert!(note.contains("your snippet `edited/shading.wgsl`"), "{note}");
+    }
+}
+
+#[test]
+fn a_lost_device_is_replaced_and_the_picture_computed_again() {
+    let gpu = Gpu::new(&GpuOptions::default()).unwrap_or_else(|error| panic!("{error}"));
+    let mut bench = Workbench::on(scene(), gpu);
+    let before = bench.picture("traversal", "image", SIZE);
+    assert!(!bench.runner.context.gpu.is_lost());
+    bench.runner.context.gpu.device.destroy();
+    assert!(bench.runner.context.gpu.is_lost());
+    let after = bench.picture("traversal", "image", SIZE);
+    assert!(coverage(&after) > 0.2 && difference(&before, &after) == 0.0);
+    let report = evaluate(&mut bench);
+    assert!(report.runs.iter().all(|run| run.notes.is_empty()), "once is enough: {report:?}");
+
+    // Lost in the middle of an evaluation: when the first processor starts.
+    let device = bench.runner.context.gpu.device.clone();
+    bench.runner.context.progress = None;
+    bench.runner.context.interrupt = Some(Box::new(move || {
+        device.destroy();
+        false
+    }));
+    bench.set("traversal.sampling_rate", "2").set("traversal.jitter", "false");
+    let report = evaluate(&mut bench);
+    assert!(report.is_complete(), "{report:?}");
+    let notes = report.runs.iter().flat_map(|run| run.notes.iter());
+    assert_eq!(notes.filter(|note| note.contains("device was lost")).count(), 1, "{report:?}");
+}

@@ -1,4 +1,5 @@
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::GpuError;
 
@@ -57,6 +58,7 @@ pub struct Gpu {
     pub features: Features,
     /// The largest sizes it allows.
     pub limits: Arc<wgpu::Limits>,
+    lost: Arc<AtomicBool>,
 }
 
 impl Gpu {
@@ -100,11 +102,36 @@ impl Gpu {
         }
     }
 
-    /// Wraps a device that somebody else opened; its abilities and limits are asked from it.
+    /// Wraps a device that somebody else opened; its abilities and limits are asked from it. Whoever then sets a callback of
+    /// their own for the loss of the device hears of it instead of [`Gpu::is_lost`].
     pub fn from_device(info: wgpu::AdapterInfo, device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let features = Features::of(device.features());
         let limits = Arc::new(device.limits());
-        Self { device, queue, info: Arc::new(info), features, limits }
+        let lost = Arc::new(AtomicBool::new(false));
+        let flag = lost.clone();
+        device.set_device_lost_callback(move |_, _| flag.store(true, Ordering::Relaxed));
+        Self { device, queue, info: Arc::new(info), features, limits, lost }
+    }
+
+    /// Whether the device is gone for good: its driver was reset or updated, or the card was taken away.
+    pub fn is_lost(&self) -> bool {
+        // The news may be waiting for somebody to ask; a failure to ask is no news.
+        let _ = self.device.poll(wgpu::PollType::Poll);
+        self.lost.load(Ordering::Relaxed)
+    }
+
+    /// Opens a new device in place of a lost one: on the same adapter if it is still there, with the same abilities.
+    ///
+    /// # Errors
+    /// No adapter can be used any more.
+    pub fn reopen(&self) -> Result<Self, GpuError> {
+        let hidden = Hidden {
+            timestamps: !self.features.timestamps,
+            float32_filterable: !self.features.float32_filterable,
+            norm16: !self.features.norm16,
+        };
+        let same = GpuOptions { hidden, adapter: Some(self.info.name.clone()) };
+        Self::new(&same).or_else(|_| Self::new(&GpuOptions { hidden, adapter: None }))
     }
 
     /// Runs `work` and returns the first error the device raised meanwhile, named after `what` is under way.

@@ -60,6 +60,21 @@ impl Context {
         })
     }
 
+    /// Starts again on another device, with empty caches; who listens and what is switched on stay.
+    ///
+    /// # Errors
+    /// The device cannot be used.
+    pub fn renew(&mut self, gpu: Gpu) -> Result<(), GpuError> {
+        let mut fresh = Self::new(gpu)?;
+        fresh.timer.set_enabled(self.timer.enabled());
+        fresh.count_samples = self.count_samples;
+        fresh.ledger = std::mem::take(&mut self.ledger);
+        fresh.progress = self.progress.take();
+        fresh.interrupt = self.interrupt.take();
+        *self = fresh;
+        Ok(())
+    }
+
     /// What the processor with this id remembers from its last run, as a `T` of its own; the default at first.
     pub fn state<T: Any + Default + Send>(&mut self, id: &str) -> &mut T {
         let slot = self.states.entry((id.to_owned(), TypeId::of::<T>())).or_insert_with(|| Box::new(T::default()));

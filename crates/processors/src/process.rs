@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use rayloom_gpu::{Gpu, GpuError};
-use rayloom_network::{Backend, Declaration, Facts, Job, Outputs, ProcessError, ProcessorType};
+use rayloom_network::{
+    Backend, Declaration, Evaluator, Facts, Job, Network, Outputs, ProcessError, ProcessorType, Report, Request,
+};
 
 use crate::{Context, Data, processors};
 
@@ -57,6 +59,39 @@ impl Runner {
     pub fn new(gpu: Gpu) -> Result<Self, GpuError> {
         let processes = processors().into_iter().map(|process| (process.declaration().id.clone(), process)).collect();
         Ok(Self { context: Context::new(gpu)?, processes })
+    }
+
+    /// Evaluates a network, again and on a new device if the device is lost meanwhile or was before. What had been computed is
+    /// computed again then, for it was on the old device; a note on the first run says so.
+    ///
+    /// # Errors
+    /// No new device can be opened.
+    pub fn evaluate(
+        &mut self,
+        evaluator: &mut Evaluator<Self>,
+        network: &Network,
+        request: &Request,
+    ) -> Result<Report, GpuError> {
+        let mut is_new = self.replace_lost(evaluator)?;
+        let mut report = evaluator.evaluate(network, self, request);
+        if self.replace_lost(evaluator)? {
+            is_new = true;
+            report = evaluator.evaluate(network, self, request);
+        }
+        if let Some(first) = report.runs.first_mut().filter(|_| is_new) {
+            first.notes.push("the graphics device was lost; everything was computed again on a new one".to_owned());
+        }
+        Ok(report)
+    }
+
+    /// Opens a new device if the one in use is lost, and forgets what was on the old one; whether it was.
+    fn replace_lost(&mut self, evaluator: &mut Evaluator<Self>) -> Result<bool, GpuError> {
+        if !self.context.gpu.is_lost() {
+            return Ok(false);
+        }
+        self.context.renew(self.context.gpu.reopen()?)?;
+        evaluator.clear();
+        Ok(true)
     }
 
     /// Switches measuring GPU time on or off; off at first, because reading the clock waits for the device.

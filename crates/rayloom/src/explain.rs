@@ -27,7 +27,7 @@ pub fn run(args: &ExplainArgs) -> Result<String, Failure> {
     let line = Line::new("rendering");
     runner.context.progress = line.listener();
     let request = Request { size: args.size, ..Request::default() };
-    let report = Evaluator::new().evaluate(&network, &mut runner, &request);
+    let report = runner.evaluate(&mut Evaluator::new(), &network, &request)?;
     drop(line);
     if !report.is_complete() {
         return Err(problems::failure(&network, &report));

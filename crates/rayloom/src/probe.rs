@@ -24,7 +24,7 @@ pub fn run(args: &ProbeArgs) -> Result<String, Failure> {
     let mut runner = Runner::new(Gpu::new(&GpuOptions::default())?)?;
     let line = Line::new("rendering");
     runner.context.progress = line.listener();
-    let report = Evaluator::new().evaluate(&network, &mut runner, &target.request);
+    let report = runner.evaluate(&mut Evaluator::new(), &network, &target.request)?;
     drop(line);
     if !report.is_complete() {
         return Err(problems::failure(&network, &report));

@@ -33,7 +33,12 @@ pub fn run(args: &RenderArgs) -> Result<String, Failure> {
     let mut runner = Runner::new(gpu)?;
     runner.measure(args.stats.is_some());
     runner.count_samples(args.stats.is_some());
-    let (picture, report) = evaluate(&network, &target, &mut runner)?;
+    let mut evaluator = Evaluator::new();
+    let mut drawn = evaluate(&network, &target, &mut runner, &mut evaluator);
+    if drawn.is_err() && runner.context.gpu.is_lost() {
+        drawn = evaluate(&network, &target, &mut runner, &mut evaluator);
+    }
+    let (picture, report) = drawn?;
     write_picture(&args.output, &picture)?;
     for (processor, note) in report.runs.iter().flat_map(|run| run.notes.iter().map(|note| (&run.processor, note))) {
         eprintln!("note: {processor}: {note}");
@@ -46,11 +51,15 @@ pub fn run(args: &RenderArgs) -> Result<String, Failure> {
 }
 
 /// Evaluates what the target needs and fetches its image.
-fn evaluate(network: &Network, target: &Target, runner: &mut Runner) -> Result<(Picture, Report), Failure> {
+fn evaluate(
+    network: &Network,
+    target: &Target,
+    runner: &mut Runner,
+    evaluator: &mut Evaluator<Runner>,
+) -> Result<(Picture, Report), Failure> {
     let line = Line::new("rendering");
     runner.context.progress = line.listener();
-    let mut evaluator = Evaluator::new();
-    let report = evaluator.evaluate(network, runner, &target.request);
+    let report = runner.evaluate(evaluator, network, &target.request)?;
     let port = &target.outport;
     match evaluator.output(&port.processor, &port.item) {
         Some(Data::Image(image)) => Ok((image.read_back(&runner.context)?, report)),

@@ -28,7 +28,7 @@ pub fn run(file: &Path, processor: &str, settings: &[Setting]) -> Result<String,
     let line = Line::new("rendering");
     runner.context.progress = line.listener();
     let request = Request { sinks: Sinks::Only(Vec::new()), watch, size: Some(SIZE), ..Request::default() };
-    let report = Evaluator::new().evaluate(&network, &mut runner, &request);
+    let report = runner.evaluate(&mut Evaluator::new(), &network, &request)?;
     drop(line);
     if !report.is_complete() {
         return Err(problems::failure(&network, &report));

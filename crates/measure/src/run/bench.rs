@@ -177,7 +177,7 @@ impl Bench {
     /// Brings these outports up to date.
     fn bring(&mut self, watch: Vec<Address>) -> Result<Report, MeasureError> {
         let request = Request { sinks: Sinks::Only(Vec::new()), watch, size: Some(self.size), ..Request::default() };
-        let report = self.evaluator.evaluate(&self.network, &mut self.runner, &request);
+        let report = self.runner.evaluate(&mut self.evaluator, &self.network, &request)?;
         self.runner.tidy(|_| true);
         match report.is_complete() {
             true => Ok(report),
