@@ -37,8 +37,8 @@ fn pixels(gpu: &Gpu, texture: &Texture) -> Result<Vec<bool>, GpuError> {
 
 /// The user's own snippets that take part in an output, as they are called.
 fn suspects(plan: &Plan, output: usize) -> Vec<String> {
-    let choice = &plan.choice;
+    let Plan { library, choice, .. } = plan;
     let paths = choice.snippets.values().chain(choice.outputs[output].as_ref());
-    let own = paths.filter(|path| plan.library.source(path).is_some_and(|source| source.kind != SourceKind::BuiltIn));
+    let own = paths.filter(|path| library.source(path).is_some_and(|source| source.kind != SourceKind::BuiltIn));
     own.map(|path| format!("your snippet `{path}`")).collect()
 }

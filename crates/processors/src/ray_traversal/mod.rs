@@ -148,7 +148,8 @@ impl RayTraversal {
         let inputs = Inputs::of(job)?;
         let mut notes = Vec::new();
         let plan = choose::plan(&snippet_library().0, context, job, &inputs, memory, &mut notes)?;
-        let shader = memory.shader(&plan.library, &plan.choice)?;
+        let choose::Plan { library, choice, .. } = &plan;
+        let shader = memory.shader(library, choice)?;
         let pass = dispatch::Pass { job, inputs: &inputs, plan: &plan, shader: &shader };
         let drawn = pass.run(context, memory)?;
         notes.extend(finite::notes(&context.gpu, &plan, &drawn.targets)?);
