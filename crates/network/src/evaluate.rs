@@ -244,7 +244,8 @@ impl<B: Backend> Evaluator<B> {
     fn conclude(&self, network: &Network, plan: &Plan, report: &mut Report) {
         let causes = |id: &str| match self.standings.get(id) {
             Some(Standing::NotReady(causes)) => causes.clone(),
-            Some(Standing::Failed) => self.error(id).map(|error| format!("{id} failed: {error}")).into_iter().collect(),
+            // Why is in the report, once.
+            Some(Standing::Failed) => vec![format!("{id} failed")],
             _ => Vec::new(),
         };
         let mut chains = chains(network, plan.order.iter().map(String::as_str), &causes);

@@ -73,9 +73,9 @@ pub enum Command {
     Open {
         /// The network file (JSON).
         network: PathBuf,
-        /// How to start.
-        #[arg(long, value_enum, default_value_t = StartMode::Development)]
-        mode: StartMode,
+        /// How to start; by default an application as such, any other network in development mode.
+        #[arg(long, value_enum)]
+        mode: Option<StartMode>,
     },
 }
 

@@ -46,7 +46,7 @@ fn main() -> ExitCode {
 
 /// Does what is asked and returns what belongs on the standard output.
 fn run(command: Option<&Command>) -> Result<String, Failure> {
-    let Some(command) = command else { return open::run(None, args::StartMode::Development) };
+    let Some(command) = command else { return open::run(None, None) };
     match command {
         Command::Render(args) => render::run(args),
         Command::Measure(args) => measure::run(args),

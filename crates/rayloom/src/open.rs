@@ -8,7 +8,7 @@ use crate::args::StartMode;
 use crate::failure::Failure;
 
 /// Opens the window and returns when it is closed.
-pub fn run(network: Option<&PathBuf>, mode: StartMode) -> Result<String, Failure> {
+pub fn run(network: Option<&PathBuf>, mode: Option<StartMode>) -> Result<String, Failure> {
     if let Some(path) = network
         && !path.is_file()
     {
@@ -19,10 +19,10 @@ pub fn run(network: Option<&PathBuf>, mode: StartMode) -> Result<String, Failure
             "there is no display to open a window on; render without one: rayloom render NETWORK -o picture.png",
         ));
     }
-    let mode = match mode {
+    let mode = mode.map(|mode| match mode {
         StartMode::Development => Mode::Development,
         StartMode::Visualization => Mode::Visualization,
-    };
+    });
     let options = Options {
         network: network.map(|path| Path::to_owned(path)),
         mode,

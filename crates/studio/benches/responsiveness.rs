@@ -44,7 +44,8 @@ fn main() {
 }
 
 fn open(network: &Path, mode: Mode) -> Window {
-    let mut window = window::studio(Options { network: Some(network.to_owned()), mode, ..Options::default() });
+    let mut window =
+        window::studio(Options { network: Some(network.to_owned()), mode: Some(mode), ..Options::default() });
     settle(&mut window);
     window
 }

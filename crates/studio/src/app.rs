@@ -33,8 +33,8 @@ const MESSAGE_SHOWN: Duration = Duration::from_secs(10);
 pub struct Options {
     /// The network to open.
     pub network: Option<PathBuf>,
-    /// The mode to start in.
-    pub mode: Mode,
+    /// The mode to start in; with none, an application is shown as such and any other network in development mode.
+    pub mode: Option<Mode>,
     /// Whom to ask for files.
     pub chooser: Chooser,
     /// Where to keep what belongs to the user; with none, nothing is kept.
@@ -80,10 +80,10 @@ impl Studio {
         // Its keys are commands of the table like all others.
         creation.egui_ctx.options_mut(|options| options.zoom_with_keyboard = false);
         let mut session = Session::new(Arc::new(registry()), engine, display);
-        session.mode = options.mode;
         session.chooser = options.chooser.clone();
         let (document, warnings, failure) = files::first_document(options.network.as_deref(), &session.registry);
         session.show(document, &warnings);
+        session.mode = options.mode.unwrap_or_else(|| Application::mode_of(session.network()));
         if let Some(failure) = failure {
             session.tell(Severity::Error, failure.to_string());
         }
@@ -113,6 +113,11 @@ impl Studio {
             complaints,
             shown_title: String::new(),
         })
+    }
+
+    /// Whether a dialog lies over everything else: keys are meant for it.
+    pub(crate) fn is_asking(&self, context: &egui::Context) -> bool {
+        self.files.is_asking() || context.memory(|memory| memory.top_modal_layer().is_some())
     }
 
     pub(crate) fn switch_mode(&mut self) {
@@ -154,12 +159,7 @@ impl Studio {
             Some(welcome::Choice::New) if session.network().processors().next().is_none() => self.welcome.close(),
             Some(welcome::Choice::New) => files.new_network(session, &context),
             Some(welcome::Choice::Choose) => files.choose(session, &context),
-            Some(welcome::Choice::Open(path, mode)) => {
-                if mode == Mode::Visualization {
-                    session.tell(Severity::Note, "F5 shows the network behind the application, and goes back");
-                }
-                files.open(&path, mode, session, &context);
-            }
+            Some(welcome::Choice::Open(path)) => files.open(&path, session, &context),
             None => {}
         }
     }
@@ -272,6 +272,7 @@ impl eframe::App for Studio {
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         let context = ui.ctx().clone();
         self.session.begin_frame();
+        self.session.look_first(&context);
         self.files.begin_frame(&mut self.session, &context);
         if std::mem::take(&mut self.session.is_new) {
             self.panels.forget();

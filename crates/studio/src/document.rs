@@ -1,10 +1,11 @@
 //! The network being edited: its file, and whether it is saved.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use rayloom_network::{LoadError, Network, Registry, Warning};
+use rayloom_network::{Address, LoadError, Network, Registry, Warning};
 
 use crate::history::History;
 
@@ -15,8 +16,14 @@ pub struct Document {
     history: History,
     /// Text of the network now, with whole paths.
     current: String,
-    /// That text as last saved or loaded; `None` when there is no such file any more.
-    saved: Option<String>,
+    /// The network as last saved or loaded, with its text; `None` when there is no such file any more.
+    saved: Option<(Network, String)>,
+    /// Properties that users of an application changed to look around: they are nothing to be saved.
+    looked: BTreeSet<Address>,
+    /// Properties of the same kind that the author changed.
+    kept: BTreeSet<Address>,
+    /// Whether there is anything that is not saved.
+    modified: bool,
     /// Another after every change of the network.
     revision: u64,
 }
@@ -29,8 +36,10 @@ impl Document {
 
     fn of(network: Network, path: Option<PathBuf>) -> Self {
         let current = network.to_text(None);
-        let saved = Some(current.clone());
-        Self { network, path, history: History::default(), current, saved, revision: new_revision() }
+        let saved = Some((network.clone(), current.clone()));
+        let (history, revision) = (History::default(), new_revision());
+        let (looked, kept) = (BTreeSet::new(), BTreeSet::new());
+        Self { network, path, history, current, saved, looked, kept, modified: false, revision }
     }
 
     /// Loads a network file; the warnings are about things kept but not understood.
@@ -44,18 +53,56 @@ impl Document {
 
     /// A network that no file has as it is: recovered after the program ended without saving it.
     pub fn unsaved(network: Network, path: Option<PathBuf>) -> Self {
-        Self { saved: None, ..Self::of(network, path) }
+        Self { saved: None, modified: true, ..Self::of(network, path) }
     }
 
     /// Takes note that `network` was saved to a file, which becomes the document's own. The document may have changed since.
     pub fn saved_as(&mut self, path: PathBuf, network: &Network) {
         self.path = Some(path);
-        self.saved = Some(network.to_text(None));
+        self.saved = Some((network.clone(), network.to_text(None)));
+        self.looked.clear();
+        self.kept.clear();
+        self.compare();
     }
 
     /// Whether a network is what was last saved or loaded.
     pub fn is_saved_as(&self, network: &Network) -> bool {
-        self.saved.as_ref() == Some(&network.to_text(None))
+        self.saved.as_ref().is_some_and(|(_, text)| *text == network.to_text(None))
+    }
+
+    /// Takes note that these properties were changed only to look around: they are nothing to be saved, unless the author
+    /// changed them, too.
+    pub fn look(&mut self, properties: impl IntoIterator<Item = Address>) {
+        self.looked.extend(properties.into_iter().filter(|address| !self.kept.contains(address)));
+        self.compare();
+    }
+
+    /// Takes note that the author changed these properties.
+    pub fn keep(&mut self, properties: impl IntoIterator<Item = Address>) {
+        for address in properties {
+            self.looked.remove(&address);
+            self.kept.insert(address);
+        }
+        self.compare();
+    }
+
+    /// Finds out whether there is anything that is not saved.
+    fn compare(&mut self) {
+        self.modified = match &self.saved {
+            None => true,
+            Some((_, text)) if *text == self.current => false,
+            Some(_) if self.looked.is_empty() => true,
+            Some((saved, text)) => {
+                let mut network = self.network.clone();
+                for Address { processor, item } in &self.looked {
+                    if let Some(value) = saved.value(processor, item) {
+                        // What is gone or refused now is a change in any case.
+                        let _ = network.set_property(processor, item, value);
+                    }
+                }
+                network.to_text(None) != *text
+            }
+        }
     }
 
     /// The network.
@@ -86,7 +133,7 @@ impl Document {
 
     /// Whether there is anything that is not saved.
     pub fn is_modified(&self) -> bool {
-        self.saved.as_ref() != Some(&self.current)
+        self.modified
     }
 
     /// Changes the network. A change that fails, or changes nothing, leaves no trace.
@@ -111,6 +158,20 @@ impl Document {
         self.step(label, Some(key.to_owned()), change)
     }
 
+    /// Changes the network as a part of what was done last: no step of its own to be undone.
+    ///
+    /// # Errors
+    /// Those of `change`.
+    pub fn amend<T, E>(&mut self, change: impl FnOnce(&mut Network) -> Result<T, E>) -> Result<T, E> {
+        let mut after = self.network.clone();
+        let result = change(&mut after)?;
+        self.network = after;
+        self.current = self.network.to_text(None);
+        self.revision = new_revision();
+        self.compare();
+        Ok(result)
+    }
+
     fn step<T, E>(
         &mut self,
         label: &str,
@@ -127,6 +188,7 @@ impl Document {
         self.current = text;
         self.revision = new_revision();
         self.history.record(before, label, key);
+        self.compare();
         Ok(result)
     }
 
@@ -161,6 +223,7 @@ impl Document {
         if travelled {
             self.current = self.network.to_text(None);
             self.revision = new_revision();
+            self.compare();
         }
         travelled
     }

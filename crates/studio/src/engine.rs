@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
 
 use rayloom_gpu::{Gpu, GpuError};
 use rayloom_network::{
@@ -120,6 +121,10 @@ pub struct Engine {
     /// What the next order is to run in any case.
     refresh: Vec<(String, String)>,
     last: Option<(u64, Request, Option<Ray>)>,
+    /// When it was asked for something while it had nothing to do.
+    began: Instant,
+    /// Results of orders before this one are about another document.
+    first: u64,
     /// A ray to follow behind every evaluation; asked for anew in every frame.
     pub ray: Option<Ray>,
     /// The latest results.
@@ -159,6 +164,8 @@ impl Engine {
             hurry,
             refresh: Vec::new(),
             last: None,
+            began: Instant::now(),
+            first: 0,
             ray: None,
             results: Results::default(),
             running: None,
@@ -185,6 +192,9 @@ impl Engine {
         };
         if self.last.as_ref().is_some_and(same) {
             return;
+        }
+        if !self.is_busy() {
+            self.began = Instant::now();
         }
         self.ordered += 1;
         let ray = self.ray.clone();
@@ -226,12 +236,27 @@ impl Engine {
                 News::Results(results) => {
                     self.progress.clear();
                     self.running = None;
+                    if results.number < self.first {
+                        continue;
+                    }
                     let previous = std::mem::replace(&mut self.results, *results);
                     self.results.keep(previous);
                 }
             }
         }
         heard
+    }
+
+    /// Forgets what was computed, for another document.
+    pub fn forget(&mut self) {
+        self.first = self.ordered + 1;
+        self.results = Results { number: self.results.number, ..Results::default() };
+        self.look_again();
+    }
+
+    /// For how long something has been computed; zero when nothing is.
+    pub fn busy_for(&self) -> Duration {
+        if self.is_busy() { self.began.elapsed() } else { Duration::ZERO }
     }
 
     /// Whether something is still to be computed.
@@ -352,7 +377,8 @@ fn follow(runner: &mut Runner, outputs: &BTreeMap<Address, Data>, ray: &Ray) -> 
         _ => None,
     });
     let absent = || ProcessError::new(format!("`{}` has no picture at the moment, so no rays", ray.processor));
-    runner.trace(&ray.processor, ray.pixel(size.ok_or_else(absent)?))
+    let outside = || ProcessError::new("the probed ray lies outside of the picture now; pick another");
+    runner.trace(&ray.processor, ray.pixel(size.ok_or_else(absent)?).ok_or_else(outside)?)
 }
 
 fn evaluate(

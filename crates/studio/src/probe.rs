@@ -13,17 +13,17 @@ use crate::session::Session;
 pub struct Ray {
     /// The traversal.
     pub processor: String,
-    /// Its place in the picture, 0 to 1 from the left and from the top: pictures change their size.
+    /// Its place, to the right of the middle of the picture and below it, in heights of the picture: there it stays the same ray
+    /// when the picture changes its size.
     pub at: [f32; 2],
 }
 
 impl Ray {
-    /// Column and row in a picture of this size.
-    pub fn pixel(&self, size: [u32; 2]) -> [u32; 2] {
-        [0, 1].map(|axis| {
-            let side = size[axis];
-            ((self.at[axis] * side as f32).max(0.0) as u32).min(side.saturating_sub(1))
-        })
+    /// Column and row in a picture of this size; none when it has become too narrow.
+    pub fn pixel(&self, size: [u32; 2]) -> Option<[u32; 2]> {
+        let [x, y] = [0, 1].map(|axis| (0.5 * size[axis] as f32 + self.at[axis] * size[1] as f32).floor());
+        let inside = x >= 0.0 && y >= 0.0 && x < size[0] as f32 && y < size[1] as f32;
+        inside.then_some([x as u32, y as u32])
     }
 }
 
@@ -67,14 +67,14 @@ impl Probe {
         self.shown_marker.as_ref().filter(|(_, processors)| processors.contains(processor)).map(|(mark, _)| *mark)
     }
 
-    /// Where to mark the ray in a picture: 0 to 1.
+    /// Where to mark the ray in a picture: from its middle, in heights of the picture.
     pub fn mark_in(&self, place: &str) -> Option<[f32; 2]> {
         self.ray.as_ref().filter(|_| self.picked_in == place).map(|ray| ray.at)
     }
 }
 
 impl Session {
-    /// Looks at the ray through a place (0 to 1) of what a processor shows or gives; whether there is a ray traversal behind it.
+    /// Looks at the ray through a place (from the middle, in heights of the picture) of what a processor shows or gives; whether there is a ray traversal behind it.
     pub fn probe(&mut self, processor: &str, picked_in: impl Into<String>, at: [f32; 2]) -> bool {
         let Some(traversal) = traversals(self.network(), processor).into_iter().next() else { return false };
         self.probe.ray = Some(Ray { processor: traversal, at });

@@ -136,7 +136,7 @@ fn edit(network: &mut Network, roll: Roll) -> Result<(), String> {
     match roll.kind {
         0 => wiring::add(network, &type_id, at).map(drop).map_err(text),
         1 => wiring::insert(network, &type_id, at, &wire?).map(drop).map_err(text),
-        2 => wiring::replace(network, &one(which[1])?, &type_id).map_err(text),
+        2 => wiring::replace(network, &one(which[1])?, &type_id).map(drop).map_err(text),
         3 => wiring::duplicate(network, &some(which[1])?).map(drop).map_err(text),
         4 => wiring::remove(network, &some(which[1])?, &BTreeSet::new()).map_err(text),
         5 => wiring::remove_and_reconnect(network, &some(which[1])?).map_err(text),

@@ -5,12 +5,13 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use rayloom_network::{Address, EditError, Network, Processor, Registry, Request, Sinks, Value, Warning};
-use rayloom_processors::types::CANVAS;
+use rayloom_processors::types::{CANVAS, SLICE_VIEW};
 
 use crate::dialogs::Chooser;
 use crate::display::Display;
 use crate::document::Document;
 use crate::engine::Engine;
+use crate::first_look::FirstLook;
 use crate::inspect::Inspection;
 use crate::navigation::Navigation;
 use crate::pane::Pane;
@@ -47,6 +48,9 @@ pub struct Message {
     pub when: Instant,
 }
 
+/// The first picture of a canvas has its resolution divided by this in both directions.
+const FIRST: u32 = 4;
+
 /// Messages kept at most.
 const MESSAGES: usize = 200;
 
@@ -68,6 +72,8 @@ pub struct Session {
     pub inspection: Inspection,
     /// Whether the error of the picture is estimated when it stands still.
     pub estimating: bool,
+    /// What was added here and shows its first data well.
+    pub first_look: FirstLook,
     /// The ray that is looked at.
     pub probe: Probe,
     /// Panes that panels ask the window to open, after this frame.
@@ -111,6 +117,7 @@ impl Session {
             display,
             inspection: Inspection::default(),
             estimating: true,
+            first_look: FirstLook::default(),
             probe: Probe::default(),
             to_open: Vec::new(),
             wants_palette: false,
@@ -166,14 +173,21 @@ impl Session {
         if let Err(error) = self.document.edit_merged(&format!("set {address}"), &address, set) {
             self.tell(Severity::Error, error.to_string());
         }
+        let views: Vec<_> = changed.iter().filter(|address| is_view(self.network(), address)).cloned().collect();
+        match self.mode {
+            Mode::Development => self.document.keep(views),
+            Mode::Visualization => self.document.look(views),
+        }
         self.touched.extend(changed.into_iter().map(|address: Address| address.processor));
     }
 
     /// Shows another document in place of the one there is, and what is odd about it.
     pub fn show(&mut self, document: Document, warnings: &[Warning]) {
         self.document = document;
+        self.engine.forget();
         self.is_new = true;
         self.selection.clear();
+        self.first_look = FirstLook::default();
         for warning in warnings {
             self.tell(Severity::Note, warning.to_string());
         }
@@ -225,6 +239,11 @@ impl Session {
     pub fn request(&self) -> Request {
         let mut sizes = self.shown.clone();
         sizes.extend(self.quality.sizes(&self.moving()));
+        // The first picture is soon there, and the next one is exact.
+        let first = |id: &String| !self.engine.results.canvases.contains_key(id);
+        for (_, size) in sizes.iter_mut().filter(|(id, _)| first(id)) {
+            *size = size.map(|pixels| pixels.div_ceil(FIRST));
+        }
         let wanted = |sink: &Processor| sink.type_id() != CANVAS || self.shown.contains_key(sink.id());
         let sinks = match self.shown.is_empty() {
             true => Sinks::All,
@@ -236,8 +255,18 @@ impl Session {
     }
 }
 
+/// Whether a property says from where something is looked at, not what it is.
+fn is_view(network: &Network, address: &Address) -> bool {
+    let Some(processor) = network.processor(&address.processor) else { return false };
+    let slice = ["position", "zoom", "pan", "offset"];
+    match processor.properties().get(&address.item) {
+        Some(Value::Camera(_)) => true,
+        _ => processor.type_id() == SLICE_VIEW && slice.contains(&address.item.as_str()),
+    }
+}
+
 /// A processor and all that feeds it.
-fn upstream<'a>(network: &'a Network, processor: &'a str) -> BTreeSet<&'a str> {
+pub(crate) fn upstream<'a>(network: &'a Network, processor: &'a str) -> BTreeSet<&'a str> {
     let mut found = BTreeSet::new();
     let mut stack = vec![processor];
     while let Some(id) = stack.pop() {

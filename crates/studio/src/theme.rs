@@ -23,6 +23,17 @@ pub fn colored(ui: &mut Ui, color: Color32, text: impl Into<RichText>) -> Respon
     ui.colored_label(color, text)
 }
 
+/// A message in a colour; what follows its first line is text of a program, whose columns stand below one another.
+pub fn report(ui: &mut Ui, color: Color32, text: &str) -> Response {
+    let Some((first, excerpt)) = text.split_once('\n') else { return colored(ui, color, text) };
+    ui.vertical(|ui| {
+        colored(ui, color, first);
+        let ink = ink(ui.visuals(), color);
+        ui.add(egui::Label::new(RichText::new(excerpt).monospace().size(11.0).color(ink)).extend());
+    })
+    .response
+}
+
 /// The accent of a port and of the wires from it.
 pub fn port_color(port_type: PortType) -> Color32 {
     match port_type {
@@ -52,6 +63,8 @@ pub fn apply(context: &egui::Context) {
     context.all_styles_mut(|style| {
         style.spacing.item_spacing = egui::vec2(8.0, 6.0);
         style.interaction.tooltip_delay = 0.3;
+        // Always in sight where there is more than fits.
+        style.spacing.scroll = egui::style::ScrollStyle { handle_min_length: 24.0, ..egui::style::ScrollStyle::thin() };
         style.text_styles.insert(TextStyle::Small, FontId::new(10.0, FontFamily::Proportional));
     });
 }

@@ -105,7 +105,8 @@ fn an_application_is_made_by_mouse_saved_and_shows_just_that() {
     while window.state_mut().session.document.undo() {}
     assert!(window.state().session.network().visualization.is_null(), "a change that cannot be undone");
     drop(window);
-    let mut window = window::studio(Options { network: Some(file), mode: Mode::Visualization, ..Options::default() });
+    let mut window =
+        window::studio(Options { network: Some(file), mode: Some(Mode::Visualization), ..Options::default() });
     window::wait_for(&mut window, "Quality");
     for label in ["Look", "As shipped", "First colour", "Shading"] {
         assert!(window.query_all_by_label(label).next().is_some(), "{label} is not shown");

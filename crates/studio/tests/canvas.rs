@@ -30,7 +30,7 @@ fn quick() -> Window {
 fn mri_viewer() -> Window {
     window::studio(Options {
         network: Some(window::project("networks/apps/mri_viewer.json")),
-        mode: Mode::Visualization,
+        mode: Some(Mode::Visualization),
         ..Options::default()
     })
 }
@@ -330,7 +330,7 @@ fn the_wheel_goes_through_slices_and_a_click_places_the_crosshair_of_all() {
     };
     let before = positions(&window);
     let middle = window.get_by_label("canvas canvas_axial").rect().center();
-    scroll(&mut window, middle, 24.0);
+    scroll(&mut window, middle, 48.0);
     let scrolled = positions(&window);
     assert!(scrolled[2] > before[2] && scrolled[..2] == before[..2], "{before:?} {scrolled:?}");
     // To the right of the middle and above it.
@@ -356,4 +356,81 @@ fn the_wheel_goes_through_slices_and_a_click_places_the_crosshair_of_all() {
     window.hover_at(Pos2::ZERO);
     window.run_steps(3);
     assert_eq!(window.state().session.probe.marker("traversal"), None);
+}
+
+fn notch(window: &mut Window, at: Pos2, notches: f32) {
+    window.hover_at(at);
+    window.step();
+    let (unit, delta, phase) = (egui::MouseWheelUnit::Line, Vec2::new(0.0, notches), TouchPhase::Move);
+    window.event(Event::MouseWheel { unit, delta, phase, modifiers: Modifiers::NONE });
+    window.run_steps(20);
+}
+
+#[test]
+fn a_notch_of_the_wheel_is_one_slice_and_a_quick_click_counts() {
+    let mut window = mri_viewer();
+    let axial = "canvas_axial";
+    window::wait_until(&mut window, |studio| studio.session.engine.results.canvases.contains_key(axial));
+    let voxels = match window.state().session.engine.results.outputs.get(&Address::new("source", "volume")) {
+        Some(Data::Volume(data)) => data.volume.dims[2],
+        _ => panic!("no volume"),
+    };
+    let position = |window: &Window, slice: &str| match window.state().session.network().value(slice, "position") {
+        Some(Value::Float(position)) => position,
+        other => panic!("no position but {other:?}"),
+    };
+    let slice = |window: &Window| (position(window, "axial") * f64::from(voxels)) as u32;
+    let middle = window.get_by_label("canvas canvas_axial").rect().center();
+    let first = slice(&window);
+    for (count, notches) in [(1, 1.0), (2, 1.0), (3, 1.0), (2, -1.0), (6, 4.0)] {
+        notch(&mut window, middle, notches);
+        assert_eq!(slice(&window), first + count);
+    }
+    // Pressed and released within one frame.
+    let at = middle + Vec2::new(40.0, 0.0);
+    window.hover_at(at);
+    window.step();
+    let before = position(&window, "sagittal");
+    for pressed in [true, false] {
+        let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
+        window.event(Event::PointerButton { pos: at, button, pressed, modifiers });
+    }
+    window.run_steps(2);
+    assert_ne!(position(&window, "sagittal"), before, "the click was lost");
+
+    // Who only looks around changes nothing that would have to be saved.
+    assert!(!window.state().session.document.is_modified());
+    window.state_mut().session.mode = Mode::Development;
+    window.state_mut().session.set("axial", "position", Value::Float(0.25));
+    assert!(window.state().session.document.is_modified(), "the author's own position");
+}
+
+#[test]
+fn a_canvas_says_in_both_modes_that_its_picture_is_an_older_one() {
+    for mode in [Mode::Development, Mode::Visualization] {
+        let mut window = quick();
+        window.state_mut().session.mode = mode;
+        settle(&mut window);
+        window.state_mut().session.set("traversal", "shading.text", Value::Text("//! slot: shading\nno".into()));
+        window::wait_for(&mut window, "traversal failed: this picture is an older one");
+        window::keep_picture(&mut window, &format!("old_{mode:?}"));
+        assert!(window.state_mut().session.document.undo());
+        window::wait_while(&mut window, "this picture is an older one");
+    }
+}
+
+#[test]
+fn the_first_picture_is_coarse_and_a_long_one_tells_how_far_it_is() {
+    let mut window = window::studio(Options {
+        network: Some(window::project("networks/marschner_lobb.json")),
+        ..Options::default()
+    });
+    window::wait_until(&mut window, |studio| studio.session.engine.results.canvases.contains_key("canvas"));
+    let (first, full) = (shown(&window).size(), window.state().session.shown["canvas"]);
+    assert!(first[0] <= full[0].div_ceil(4), "{first:?} of {full:?}");
+    settle(&mut window);
+    assert_eq!(shown(&window).size(), full);
+    window.state_mut().session.set("traversal", "sampling_rate", Value::Float(64.0));
+    window::wait_for(&mut window, "Computing traversal");
+    window::keep_picture(&mut window, "computing");
 }

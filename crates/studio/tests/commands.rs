@@ -97,3 +97,15 @@ fn canvases_and_the_network_are_written_as_pictures() {
         .expect("kept");
     std::fs::remove_dir_all(&folder).expect("removed");
 }
+
+#[test]
+fn keys_do_nothing_behind_a_dialog() {
+    let mut window = window::studio(window::flagship());
+    window.run_steps(3);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::E);
+    window.run_steps(4);
+    assert!(window.query_by_label("Picture of a canvas").is_some());
+    window.key_press_modifiers(Modifiers::NONE, Key::F5);
+    window.run_steps(3);
+    assert_eq!(window.state().session.mode, rayloom_studio::Mode::Development);
+}

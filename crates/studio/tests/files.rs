@@ -9,7 +9,7 @@ use egui::{Key, Modifiers, ViewportCommand, ViewportEvent};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use rayloom_network::Network;
-use rayloom_studio::{Chooser, Folders, Options, Pane, Studio};
+use rayloom_studio::{Chooser, Folders, Mode, Options, Pane, Studio};
 use window::{drop_file, keep_picture, project, studio, wait_for, wait_until};
 
 type Window = Harness<'static, Studio>;
@@ -250,4 +250,18 @@ fn files_that_change_on_the_disk_are_read_again_and_unsaved_changes_are_asked_ab
     assert!(window.state().session.network().processor("mine").is_some());
     data(77);
     wait_for(&mut window, "ball.volume.json changed and is read again");
+}
+
+#[test]
+fn an_application_opens_as_one_and_other_networks_in_development_mode() {
+    for (network, mode) in
+        [("networks/apps/mri_viewer.json", Mode::Visualization), ("networks/marschner_lobb.json", Mode::Development)]
+    {
+        let started = window::studio(Options { network: Some(window::project(network)), ..Options::default() });
+        assert_eq!(started.state().session.mode, mode, "{network}");
+        let mut dropped = window::studio(Options::default());
+        window::drop_file(&mut dropped, &window::project(network));
+        window::wait_until(&mut dropped, |studio| studio.session.document.path().is_some());
+        assert_eq!(dropped.state().session.mode, mode, "{network}");
+    }
 }

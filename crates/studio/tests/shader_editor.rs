@@ -98,7 +98,7 @@ fn a_live_text_is_broken_and_mended_while_the_picture_stays() {
 fn a_text_among_exposed_properties_is_edited_without_the_network_in_sight() {
     let mut window = window::studio(Options {
         network: Some(window::project("networks/apps/snippet_playground.json")),
-        mode: Mode::Visualization,
+        mode: Some(Mode::Visualization),
         ..Options::default()
     });
     window::wait_until(&mut window, |studio| studio.session.engine.results.canvases.contains_key("canvas"));

@@ -9,7 +9,7 @@ use serde_json::json;
 const APPLICATIONS: [&str; 3] = ["mri_viewer", "compositing_modes", "snippet_playground"];
 
 fn opened(network: &str) -> Options {
-    Options { network: Some(window::project(network)), mode: Mode::Visualization, ..Options::default() }
+    Options { network: Some(window::project(network)), mode: Some(Mode::Visualization), ..Options::default() }
 }
 
 #[test]

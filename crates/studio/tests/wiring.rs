@@ -48,6 +48,7 @@ fn a_network_is_wired_from_nothing_by_mouse_and_keyboard() {
     let mut window = chain();
     assert_eq!(wires(&window), SOURCE_TO_CANVAS);
     wait_for(&mut window, "processor canvas (Canvas): ready");
+    window::wait_until(&mut window, |studio| !studio.session.first_look.is_waiting());
     keep_picture(&mut window, "chain");
     let built = text(&window);
     let steps = 5 + SOURCE_TO_CANVAS.len();
@@ -331,4 +332,104 @@ fn a_frame_moves_with_what_is_in_it_and_the_map_goes_there() {
         key(&mut window, Modifiers::COMMAND, Key::Z);
     }
     assert_eq!(text(&window), before);
+}
+
+fn zoom(window: &Window) -> f32 {
+    window.get_by_label_contains("processor canvas (").rect().width()
+}
+
+#[test]
+fn the_wheel_zooms_to_the_pointer_also_over_a_node() {
+    let mut window = window::studio(window::flagship());
+    window.run_steps(5);
+    let node = window.get_by_label_contains("processor canvas (").rect().center();
+    for at in [node, on_canvas(&window, (0.5, 0.04))] {
+        let before = zoom(&window);
+        for notches in [1.0, -1.0] {
+            window.hover_at(at);
+            window.run_steps(2);
+            let (unit, delta) = (egui::MouseWheelUnit::Line, Vec2::new(0.0, notches));
+            let phase = egui::TouchPhase::Move;
+            window.event(Event::MouseWheel { unit, delta, phase, modifiers: Modifiers::NONE });
+            window.run_steps(20);
+            let expected =
+                if notches > 0.0 { zoom(&window) / before > 1.05 } else { (zoom(&window) / before - 1.0).abs() < 0.01 };
+            assert!(expected, "{notches} at {at:?}: {before} {}", zoom(&window));
+            if at == node {
+                assert!(window.get_by_label_contains("processor canvas (").rect().contains(node));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_quick_click_selects_a_node_and_keys_need_no_click_first() {
+    let mut window = window::studio(window::flagship());
+    window.run_steps(5);
+    let click = |window: &mut Window, label: &str| {
+        let pos = window.get_by_label_contains(label).rect().center();
+        window.hover_at(pos);
+        window.run_steps(2);
+        for pressed in [true, false] {
+            let (button, modifiers) = (egui::PointerButton::Primary, Modifiers::NONE);
+            window.event(Event::PointerButton { pos, button, pressed, modifiers });
+        }
+        window.run_steps(4);
+    };
+    for id in ["traversal", "canvas"] {
+        click(&mut window, &format!("processor {id} ("));
+        assert_eq!(Vec::from_iter(&window.state().session.selection), [id]);
+    }
+    // A click on a panel beside it, and back with the pointer only.
+    let beside = window.get_by_label("Properties").rect().center();
+    window.hover_at(beside);
+    window.step();
+    window.drag_at(beside);
+    window.step();
+    window.drop_at(beside);
+    window.run_steps(2);
+    let at = on_canvas(&window, (0.5, 0.04));
+    window.hover_at(at);
+    window.run_steps(3);
+    key(&mut window, Modifiers::NONE, Key::Delete);
+    assert!(window.state().session.network().processor("canvas").is_none());
+}
+
+#[test]
+fn what_replaces_a_processor_does_not_keep_the_name_of_its_type() {
+    let mut window = window::studio(Options::default());
+    window.run_steps(3);
+    let at = on_canvas(&window, (0.5, 0.5));
+    add(&mut window, "volume generator", at);
+    assert!(window.state().session.network().processor("volume_generator").is_some());
+    let node = window.get_by_label_contains("processor volume_generator").rect().center();
+    window.hover_at(node);
+    window.run_steps(2);
+    for pressed in [true, false] {
+        let button = egui::PointerButton::Secondary;
+        window.event(Event::PointerButton { pos: node, button, pressed, modifiers: Modifiers::NONE });
+        window.run_steps(2);
+    }
+    for label in ["Replace by", "Source", "Volume source"] {
+        // The list of processors has some of these words, too; menus come after it.
+        window.query_all_by_label_contains(label).last().expect("in the menu").click();
+        window.run_steps(6);
+    }
+    assert!(window.state().session.network().processor("volume_source").is_some());
+    assert!(window.state().session.selection.contains("volume_source"));
+}
+
+#[test]
+fn a_new_chain_shows_its_first_data_well() {
+    let mut window = chain();
+    let default = |window: &Window, id: &str, property: &str| {
+        let processor = window.state().session.network().processor(id).expect("it was added");
+        let decls = processor.property_decls();
+        let decl = decls.iter().find(|decl| decl.id == property).expect("declared");
+        processor.properties().get(property) == Some(&decl.default)
+    };
+    window::wait_until(&mut window, |studio| !studio.session.first_look.is_waiting());
+    assert!(!default(&window, "ray_traversal", "transfer_function"), "a white blob");
+    assert!(!default(&window, "entry_exit_points", "camera"), "the camera sees what there is");
+    keep_picture(&mut window, "first_look");
 }

@@ -65,6 +65,6 @@ pub(super) fn recent_files(ui: &mut Ui, studio: &mut Studio) {
         }
     });
     if let Some(path) = chosen {
-        studio.files.open(&path, studio.session.mode, &mut studio.session, ui.ctx());
+        studio.files.open(&path, &mut studio.session, ui.ctx());
     }
 }

@@ -122,7 +122,7 @@ pub fn all() -> impl Iterator<Item = &'static Command> {
 
 /// Does what the pressed keys stand for.
 pub fn run_pressed(studio: &mut Studio, context: &Context) {
-    if studio.files.is_asking() {
+    if studio.is_asking(context) {
         return;
     }
     let mut bound: Vec<_> = all().flat_map(|command| command.keys.iter().map(move |keys| (keys, command))).collect();

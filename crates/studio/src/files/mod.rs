@@ -23,6 +23,7 @@ use crate::dialogs::Question;
 use crate::document::Document;
 use crate::later::Later;
 use crate::session::{Mode, Session, Severity};
+use crate::visualization::Application;
 use question::Decision;
 use recent::RecentFiles;
 use reload::Reload;
@@ -42,8 +43,8 @@ enum Next {
     New,
     /// A network file that the user chooses.
     Choose,
-    /// This network file, in this mode.
-    Open(PathBuf, Mode),
+    /// This network file.
+    Open(PathBuf),
     /// What a program that ended without saving left behind.
     Recover,
     /// The end of the program.
@@ -55,7 +56,7 @@ type Saved = Result<(PathBuf, Network), SaveError>;
 
 /// What goes on away from the window's thread; one thing at a time.
 enum Work {
-    Opening(Later<Option<Opened>>, Mode),
+    Opening(Later<Option<Opened>>),
     Saving(Later<Option<Saved>>),
 }
 
@@ -114,9 +115,9 @@ impl Files {
         self.leave(Next::Choose, session, context);
     }
 
-    /// Opens a network file and shows it in a mode.
-    pub fn open(&mut self, path: &Path, mode: Mode, session: &mut Session, context: &Context) {
-        self.leave(Next::Open(path.to_owned(), mode), session, context);
+    /// Opens a network file; an application is shown as such.
+    pub fn open(&mut self, path: &Path, session: &mut Session, context: &Context) {
+        self.leave(Next::Open(path.to_owned()), session, context);
     }
 
     /// Closes the window.
@@ -155,7 +156,7 @@ impl Files {
     /// Whether a file is being opened or saved, and which.
     pub fn working(&self) -> Option<&'static str> {
         self.work.as_ref().map(|work| match work {
-            Work::Opening(..) => "opening",
+            Work::Opening(_) => "opening",
             Work::Saving(_) => "saving",
         })
     }
@@ -168,7 +169,7 @@ impl Files {
             self.quit(session, context);
         }
         if let Some(path) = dropped_network(context) {
-            self.open(&path, session.mode, session, context);
+            self.open(&path, session, context);
         }
         self.reload.follow(session, context);
         if let Some(problem) = self.recent.follow(context) {
@@ -176,9 +177,9 @@ impl Files {
         }
         match self.work.take() {
             None => {}
-            Some(Work::Opening(task, mode)) => match task.poll() {
-                Poll::Pending => self.work = Some(Work::Opening(task, mode)),
-                Poll::Ready(opened) => self.take_in_opened(opened.flatten(), mode, session),
+            Some(Work::Opening(task)) => match task.poll() {
+                Poll::Pending => self.work = Some(Work::Opening(task)),
+                Poll::Ready(opened) => self.take_in_opened(opened.flatten(), session),
             },
             Some(Work::Saving(task)) => match task.poll() {
                 Poll::Pending => self.work = Some(Work::Saving(task)),
@@ -208,9 +209,9 @@ impl Files {
         let name = session.document.path().map_or("this network".into(), |_| session.document.title());
         let verb = match next {
             Next::Quit => "quitting",
-            Next::New | Next::Choose | Next::Open(..) | Next::Recover => "leaving it",
+            Next::New | Next::Choose | Next::Open(_) | Next::Recover => "leaving it",
         };
-        let Some(decision) = question::show(context, &name, verb) else { return };
+        let Some(decision) = question::show(context, &name, verb, session.mode == Mode::Development) else { return };
         let Some(next) = self.question.take() else { return };
         match decision {
             Decision::Save => {
@@ -242,11 +243,11 @@ impl Files {
                 let folder = session.document.path().and_then(Path::parent);
                 let question = Question { name: "Rayloom network", extensions: &extensions, folder, save_as: None };
                 let task = session.chooser.ask(context, &question, move |path| Document::load(&path, &registry));
-                self.work = Some(Work::Opening(task, session.mode));
+                self.work = Some(Work::Opening(task));
             }
-            Next::Open(path, mode) => {
+            Next::Open(path) => {
                 let task = Later::start(context, move || Some(Document::load(&path, &registry)));
-                self.work = Some(Work::Opening(task, mode));
+                self.work = Some(Work::Opening(task));
             }
             Next::Recover => self.rescue.recover(session),
             Next::Quit => {
@@ -265,13 +266,16 @@ impl Files {
         self.work = Some(Work::Saving(start(session)));
     }
 
-    fn take_in_opened(&mut self, opened: Option<Opened>, mode: Mode, session: &mut Session) {
+    fn take_in_opened(&mut self, opened: Option<Opened>, session: &mut Session) {
         match opened {
             None => {}
             Some(Ok((document, warnings))) => {
                 document.path().into_iter().for_each(|path| self.recent.add(path));
                 session.show(document, &warnings);
-                session.mode = mode;
+                session.mode = Application::mode_of(session.network());
+                if session.mode == Mode::Visualization {
+                    session.tell(Severity::Note, "F5 shows the network behind the application, and goes back");
+                }
             }
             Some(Err(error)) => session.tell(Severity::Error, error.to_string()),
         }

@@ -12,8 +12,9 @@ pub enum Decision {
     Cancel,
 }
 
-/// Asks about the changes of a document before going on; the answer once there is one.
-pub fn show(context: &Context, document: &str, before: &str) -> Option<Decision> {
+/// Asks about the changes of a document before going on; the answer once there is one. Enter saves only where the document is
+/// being made: users of an application did not come to write over it.
+pub fn show(context: &Context, document: &str, before: &str, enter_saves: bool) -> Option<Decision> {
     let mut decision = None;
     let frame = Frame::popup(&context.global_style()).inner_margin(20.0);
     let modal = Modal::new(Id::new("unsaved changes")).frame(frame).show(context, |ui| {
@@ -30,7 +31,7 @@ pub fn show(context: &Context, document: &str, before: &str) -> Option<Decision>
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let fill = ui.visuals().selection.bg_fill;
                 let save = ui.add(Button::new(RichText::new("Save").strong()).min_size(size).fill(fill));
-                if save.clicked() || ui.input(|input| input.key_pressed(Key::Enter)) {
+                if save.clicked() || (enter_saves && ui.input(|input| input.key_pressed(Key::Enter))) {
                     decision = Some(Decision::Save);
                 }
                 if ui.add(Button::new("Cancel").min_size(size)).clicked() {

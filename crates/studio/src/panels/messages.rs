@@ -9,9 +9,9 @@ pub fn show(ui: &mut egui::Ui, session: &mut Session) {
     let shown = |ui: &mut egui::Ui| {
         let report = &session.engine.results.report;
         for (id, error) in &report.failed {
-            theme::colored(ui, theme::ERROR, format!("{id}: {error}"));
+            theme::report(ui, theme::ERROR, &format!("{id}: {error}"));
         }
-        for reason in report.not_ready.values().flatten() {
+        for reason in crate::panels::causes(report) {
             theme::colored(ui, theme::WARNING, reason);
         }
         for (id, run) in &session.engine.results.runs {
@@ -21,7 +21,7 @@ pub fn show(ui: &mut egui::Ui, session: &mut Session) {
         }
         for message in session.messages.iter().rev() {
             match message.severity {
-                Severity::Error => theme::colored(ui, theme::ERROR, &message.text),
+                Severity::Error => theme::report(ui, theme::ERROR, &message.text),
                 Severity::Note => ui.label(&message.text),
             };
         }

@@ -17,6 +17,8 @@ mod tuning;
 
 use egui_tiles::{Linear, LinearDir, TileId, Tiles, Tree};
 
+use rayloom_network::Report;
+
 use crate::pane::Pane;
 use crate::session::Session;
 use crate::visualization::Visualization;
@@ -27,6 +29,14 @@ pub use network::Action as NetworkAction;
 /// What the pointer and keys do that no command says: where, and for what.
 pub const GESTURES: &[(&str, &[(&str, &str)])] =
     &[("On the node canvas", network::GESTURES), ("On a picture", canvas::GESTURES)];
+
+/// What keeps processors waiting, each cause once: not again for all that wait on its account, nor for a failure.
+pub(crate) fn causes(report: &Report) -> impl Iterator<Item = &str> {
+    report.not_ready.iter().flat_map(|(id, reasons)| {
+        let own = format!("{id}: ");
+        reasons.iter().filter(move |reason| reason.starts_with(&own)).map(String::as_str)
+    })
+}
 
 /// What the panels remember from frame to frame.
 #[derive(Default)]

@@ -14,13 +14,13 @@ pub(super) fn pick(ui: &Ui, response: &Response, picture: Rect, session: &mut Se
         && response.clicked()
         && ui.input(|input| input.modifiers.command)
     {
-        let at = (pointer - picture.min) / picture.size();
+        let at = (pointer - picture.center()) / picture.height();
         if !session.probe(processor, place, at.into()) {
             session.tell(Severity::Note, format!("no ray traversal draws what `{place}` shows, so there is no ray"));
         }
     }
     if let Some([x, y]) = session.probe.mark_in(place).filter(|_| session.engine.results.trace.is_some()) {
-        crosshair(&ui.painter().with_clip_rect(picture), picture.min + Vec2::new(x, y) * picture.size());
+        crosshair(&ui.painter().with_clip_rect(picture), picture.center() + Vec2::new(x, y) * picture.height());
     }
 }
 

@@ -32,6 +32,8 @@ use rayloom_network::{Address, Network, Preset, PropertyDecl, PropertyKind, clos
 use rayloom_processors::types::CANVAS;
 use serde_json::Value as Json;
 
+use crate::session::Mode;
+
 /// What visualization mode shows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Application {
@@ -114,6 +116,13 @@ impl Application {
                 .extend(refused.map(|(_, problem)| format!("visualization.presets (`{}`): {problem}", preset.name)));
         }
         problems
+    }
+
+    /// How a network is shown when it is opened: one that its author made an application of, as that.
+    pub fn mode_of(network: &Network) -> Mode {
+        let (application, _) = json::parse(&network.visualization);
+        let made = !application.groups.is_empty() || !application.presets.is_empty() || application.locked;
+        if made { Mode::Visualization } else { Mode::Development }
     }
 
     /// Ids of the canvases to show.

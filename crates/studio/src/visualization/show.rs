@@ -105,9 +105,9 @@ impl Visualization {
             theme::colored(ui, theme::WARNING, problem);
         }
         for (id, error) in &session.engine.results.report.failed {
-            theme::colored(ui, theme::ERROR, format!("{id}: {error}"));
+            theme::report(ui, theme::ERROR, &format!("{id}: {error}"));
         }
-        for reason in session.engine.results.report.not_ready.values().flatten() {
+        for reason in crate::panels::causes(&session.engine.results.report) {
             theme::colored(ui, theme::WARNING, reason);
         }
     }

@@ -12,7 +12,7 @@ use egui::{
 };
 
 use crate::files::Recent;
-use crate::session::{Mode, Session};
+use crate::session::Session;
 use gallery::{Entry, Gallery};
 
 pub use shipped::folder as shipped_folder;
@@ -31,7 +31,7 @@ pub enum Choice {
     /// A network that is asked for.
     Choose,
     /// This network, in this mode.
-    Open(PathBuf, Mode),
+    Open(PathBuf),
 }
 
 /// The welcome page.
@@ -138,7 +138,7 @@ fn beginnings(ui: &mut Ui, recent: &[Recent], choice: &mut Option<Choice>) {
         let path = file.path.display().to_string();
         let gone = format!("{path}\nThe file is no longer there.");
         if response.on_hover_text(&path).on_disabled_hover_text(gone).clicked() {
-            *choice = Some(Choice::Open(file.path.clone(), Mode::Development));
+            *choice = Some(Choice::Open(file.path.clone()));
         }
     }
 }
@@ -166,8 +166,7 @@ fn cards(ui: &mut Ui, entries: &[Entry], choice: &mut Option<Choice>) {
                 ui.spacing_mut().item_spacing.x = GAP;
                 for entry in row {
                     if show_card(ui, entry, card) {
-                        let mode = if applications { Mode::Visualization } else { Mode::Development };
-                        *choice = Some(Choice::Open(entry.network.path.clone(), mode));
+                        *choice = Some(Choice::Open(entry.network.path.clone()));
                     }
                 }
             });

@@ -5,6 +5,7 @@ use thiserror::Error;
 
 use super::connect::{End, connect};
 use super::link::link_cameras;
+use super::rename::rename;
 
 /// How far apart processors lie that follow one another, points of the canvas.
 const COLUMN: f64 = 220.0;
@@ -118,12 +119,12 @@ fn make_room(network: &mut Network, id: &str, wire: &Connection) -> Result<(), E
     moved.into_iter().try_for_each(|(id, [x, y])| network.set_position(&id, [x + missing, y]))
 }
 
-/// Puts a processor of another type in a processor's place: same id, place and name; values of properties, connections and
-/// links stay where they fit.
+/// Puts a processor of another type in a processor's place, under a name that the user gave it; values of properties,
+/// connections and links stay where they fit. An id that tells of the old type becomes one of the new type. Returns the id.
 ///
 /// # Errors
 /// An unknown processor or type.
-pub fn replace(network: &mut Network, id: &str, type_id: &str) -> Result<(), EditError> {
+pub fn replace(network: &mut Network, id: &str, type_id: &str) -> Result<String, EditError> {
     let unknown = || EditError::UnknownProcessor { id: id.to_owned(), hint: String::new() };
     let old = network.processor(id).ok_or_else(unknown)?.clone();
     let inputs: Vec<Connection> = network.inputs(id).cloned().collect();
@@ -147,7 +148,18 @@ pub fn replace(network: &mut Network, id: &str, type_id: &str) -> Result<(), Edi
         // A property that the new type lacks cannot stay linked.
         let _ = network.link(link.a, link.b);
     }
-    Ok(())
+    if !is_named_after(id, old.type_id()) {
+        return Ok(id.to_owned());
+    }
+    let new = network.free_id(type_id);
+    rename(network, id, &new)?;
+    Ok(new)
+}
+
+/// Whether an id is what a processor of a type gets by itself: the type's own, with a number where that was taken.
+fn is_named_after(id: &str, type_id: &str) -> bool {
+    let rest = id.strip_prefix(type_id);
+    rest.is_some_and(|rest| rest.chars().all(|c| c.is_ascii_digit() || c == '_'))
 }
 
 /// Sets the properties that the processor has too and that take the value, those that bring others with them first.

@@ -3,6 +3,7 @@
 mod camera;
 mod cube;
 mod slice;
+mod status;
 mod walk;
 
 use std::sync::Arc;
@@ -24,7 +25,7 @@ pub const GESTURES: &[(&str, &str)] = &[
     ("Shift or middle drag", "move"),
     ("Right drag", "zoom"),
     ("Wheel, pinch", "zoom to the pointer"),
-    ("Wheel on a slice", "go through; with Ctrl: zoom to the pointer"),
+    ("Wheel on a slice", "to the next; with Ctrl: zoom to the pointer"),
     ("Two fingers", "move, zoom and roll"),
     ("Double click", "centre on the surface"),
     ("Right click", "these as a menu"),
@@ -76,14 +77,21 @@ impl CanvasPanel {
         *size = [size[0].max(pixels[0]), size[1].max(pixels[1])];
         ui.painter().rect_filled(area, 0.0, Color32::BLACK);
         let Some(image) = session.engine.results.canvases.get(canvas).cloned() else {
-            let (text, color) = absence(session, canvas);
-            let galley = ui.painter().layout(text, FontId::proportional(14.0), color, area.width() - 24.0);
-            ui.painter().galley(area.center() - 0.5 * galley.size(), galley, color);
+            absent(ui, area, session, canvas);
             return;
         };
-        let shown = fitted(area, &image);
+        let behind = behind(session.network(), canvas);
+        let shown = match behind {
+            Some(Behind::Camera(..)) => of_height(area, &image),
+            _ => fitted(area, &image),
+        };
+        // An older picture may be wider than the canvas is now.
+        let around = ui.clip_rect();
+        ui.set_clip_rect(area.intersect(around));
         paint(ui, shown, session.display.picture(&image, Look::default()));
-        match behind(session.network(), canvas) {
+        status::show(ui, area, session, canvas);
+        let shown = shown.intersect(area);
+        match behind {
             Some(Behind::Camera(processor, property)) => {
                 self.camera.interact(ui, &response, shown, &image, session, [canvas, &processor, &property]);
             }
@@ -96,6 +104,7 @@ impl CanvasPanel {
             ui.painter().text(at, Align2::CENTER_BOTTOM, hint, font, Color32::from_white_alpha(220));
         }
         probe::pick(ui, &response, shown, session, canvas, canvas);
+        ui.set_clip_rect(around);
     }
 
     /// The canvas to show; a choice where there are several.
@@ -122,13 +131,28 @@ fn fitted(area: Rect, image: &Arc<Image>) -> Rect {
     Rect::from_center_size(area.center(), size * (area.width() / size.x).min(area.height() / size.y))
 }
 
-/// Why there is no picture.
-fn absence(session: &Session, canvas: &str) -> (String, Color32) {
+/// The place for an image of a camera: as high as the canvas. A picture of other proportions, from before the canvas changed
+/// its size, shows things where they will be in the next one.
+fn of_height(area: Rect, image: &Arc<Image>) -> Rect {
+    let [width, height] = image.size().map(|pixels| pixels as f32);
+    let exact = area.height() * width / height;
+    // What rounding to whole pixels and coarser pictures change is no other proportion.
+    let same = (exact - area.width()).abs() <= area.height() / height * 1.5;
+    Rect::from_center_size(area.center(), Vec2::new(if same { area.width() } else { exact }, area.height()))
+}
+
+/// Says why there is no picture.
+fn absent(ui: &egui::Ui, area: Rect, session: &Session, canvas: &str) {
     let report = &session.engine.results.report;
-    match report.not_ready.get(canvas).and_then(|reasons| reasons.first()) {
-        Some(reason) => (reason.clone(), Color32::GRAY),
-        None if session.engine.is_busy() => ("...".into(), Color32::GRAY),
-        None => ("no picture".into(), Color32::GRAY),
+    let text = match report.not_ready.get(canvas).and_then(|reasons| reasons.first()) {
+        Some(reason) => reason.clone(),
+        None if session.engine.is_busy() => "...".into(),
+        None => "no picture".into(),
+    };
+    let galley = ui.painter().layout(text, FontId::proportional(14.0), Color32::GRAY, area.width() - 24.0);
+    ui.painter().galley(area.center() - 0.5 * galley.size(), galley, Color32::GRAY);
+    if session.engine.is_busy() {
+        status::show(ui, area, session, canvas);
     }
 }
 

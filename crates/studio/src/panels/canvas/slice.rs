@@ -7,12 +7,9 @@ use rayloom_processors::types::SLICE_VIEW;
 use rayloom_volume::Volume;
 
 use super::number;
-use crate::pointer::dragged_by;
+use crate::pointer::{dragged_by, notches};
 use crate::probe::Mark;
 use crate::session::Session;
-
-/// Scrolled points for a step to the next voxel: one notch of a wheel.
-const STEP: f32 = 40.0;
 
 /// A slice across an axis, and how it lies in the picture.
 struct Slice {
@@ -140,19 +137,28 @@ fn mark(ui: &egui::Ui, session: &mut Session, source: &Address, value: f64) {
 }
 
 fn is_held(ui: &egui::Ui, response: &egui::Response) -> bool {
-    response.is_pointer_button_down_on() && ui.input(|input| input.pointer.primary_down())
+    // A quick click is pressed and released within one frame.
+    response.clicked() || (response.is_pointer_button_down_on() && ui.input(|input| input.pointer.primary_down()))
 }
 
-/// The wheel goes through the volume, voxel by voxel.
+/// The wheel goes through the volume: a notch leads to the middle of the next slice of voxels.
 fn scroll(ui: &egui::Ui, response: &egui::Response, session: &mut Session, processor: &str, voxels: u32) {
-    let scroll = ui.input(|input| input.smooth_scroll_delta.y);
-    if response.hovered()
-        && scroll != 0.0
+    if !response.hovered() {
+        return;
+    }
+    let steps = notches(ui, response.id.with("slices"));
+    if steps != 0
         && let Some(before) = number(session.network(), processor, "position")
     {
-        let after = before + f64::from(scroll / STEP) / f64::from(voxels);
-        session.set(processor, "position", Value::Float(after.clamp(0.0, 1.0)));
+        session.set(processor, "position", Value::Float(stepped(before, steps, voxels)));
     }
+}
+
+/// The middle of the slice of voxels so many further on, as a place from 0 to 1.
+fn stepped(position: f64, steps: i32, voxels: u32) -> f64 {
+    let last = f64::from(voxels.saturating_sub(1));
+    let slice = (position * f64::from(voxels)).floor().clamp(0.0, last) + f64::from(steps);
+    (slice.clamp(0.0, last) + 0.5) / f64::from(voxels.max(1))
 }
 
 /// The wheel with Ctrl, or two fingers, zoom where the pointer is.
@@ -211,6 +217,19 @@ const AXES: [Color32; 3] =
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_notch_is_one_slice() {
+        for voxels in [1, 2, 7, 181, 218, 512] {
+            let mut position = 0.0;
+            for slice in 1..=voxels {
+                position = stepped(position, 1, voxels);
+                let expected = slice.min(voxels - 1);
+                assert_eq!((position * f64::from(voxels)) as u32, expected, "of {voxels}");
+            }
+            assert_eq!(stepped(position, -10_000, voxels), 0.5 / f64::from(voxels));
+        }
+    }
 
     #[test]
     fn points_and_coordinates_are_inverse() {

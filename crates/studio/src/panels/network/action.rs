@@ -155,7 +155,7 @@ fn add(session: &mut Session, action: Action) {
             Ok(one(id))
         }),
         Action::Replace(id, type_id) => {
-            session.edit(&format!("replace {id}"), |network| wiring::replace(network, &id, &type_id));
+            select_new(session, &format!("replace {id}"), |network| wiring::replace(network, &id, &type_id).map(one));
         }
         Action::Duplicate if !session.selection.is_empty() => {
             let ids = session.selection.clone();
@@ -178,6 +178,7 @@ fn select_new<E: std::fmt::Display>(
     let mut new = BTreeSet::new();
     let links = session.network().links().len();
     if session.edit(label, |network| change(network).map(|ids| new = ids)) {
+        session.first_look.wait_for(new.iter().cloned());
         session.selection = new;
         let linked = session.network().links().iter().skip(links);
         let notes: Vec<String> = linked

@@ -8,6 +8,7 @@ use egui_graph::bezier::Path;
 use egui_graph::edge::EdgeShape;
 use rayloom_network::{Connection, Network};
 
+use super::route;
 use crate::wiring::End;
 
 /// How wires run.
@@ -73,16 +74,23 @@ impl Geometry {
             .filter(|end| self.sockets.get(end).is_some_and(|place| place.distance(at) <= RADIUS))
     }
 
-    /// The way of a wire between two points, the first where data comes out.
-    pub fn path(from: Pos2, to: Pos2) -> Path {
-        WIRE.path((from, Vec2::RIGHT), &[], (to, Vec2::LEFT))
+    /// The way of a wire between two points, the first where data comes out, by others.
+    pub fn path(from: Pos2, way: &[Pos2], to: Pos2) -> Path {
+        WIRE.path((from, Vec2::RIGHT), way, (to, Vec2::LEFT))
+    }
+
+    /// The points by which a connection's wire goes around the nodes in its way.
+    pub fn way(&self, wire: &Connection) -> Vec<Pos2> {
+        let from = self.sockets.get(&End::Outport(wire.from.clone()));
+        let Some((from, to)) = from.zip(self.sockets.get(&End::Inport(wire.to.clone()))) else { return Vec::new() };
+        route::around(*from, *to, self.nodes.values().copied())
     }
 
     /// The points of a connection's wire, if both its ends are in view.
     pub fn points(&self, wire: &Connection) -> Option<Vec<Pos2>> {
         let from = self.sockets.get(&End::Outport(wire.from.clone()))?;
         let to = self.sockets.get(&End::Inport(wire.to.clone()))?;
-        Some(Self::path(*from, *to).flatten(STEP).collect())
+        Some(Self::path(*from, &self.way(wire), *to).flatten(STEP).collect())
     }
 
     /// The connection whose wire passes a point; the nearest where several do.

@@ -8,11 +8,13 @@ mod geometry;
 mod menus;
 mod minimap;
 mod node;
+mod route;
 mod scene;
 pub(super) mod state;
 mod svg;
 mod text;
 mod waiting;
+mod zoom;
 
 use std::collections::{BTreeSet, HashSet};
 
@@ -43,7 +45,8 @@ pub const GESTURES: &[(&str, &str)] = &[
     ("Rest on a wire", "see what flows there"),
     ("Drag", "select; with a node: move it"),
     ("Ctrl or Shift and click", "add to the selection"),
-    ("Middle drag, wheel", "move, zoom"),
+    ("Middle drag", "move"),
+    ("Wheel, pinch", "zoom to the pointer"),
     ("Right click", "menu"),
 ];
 
@@ -99,6 +102,7 @@ impl NetworkPanel {
         self.clipboard(ui.ctx(), &mut actions);
         self.sync(session);
         self.fit_view(ui.ctx(), session, area);
+        self.zoom(ui, area);
         let pointer = ui.input(|input| input.pointer.latest_pos());
         let on_canvas = pointer.and_then(|at| self.geometry.on_canvas(at));
         let target = self.drag.as_ref().zip(on_canvas).map(|(drag, at)| drag.target(&self.geometry, at));
@@ -116,7 +120,7 @@ impl NetworkPanel {
         ui.visuals_mut().widgets.noninteractive.bg_fill = ui.visuals().extreme_bg_color;
         // The distance at which wires are touched, which the library takes on the canvas, is one in the window.
         ui.style_mut().interaction.interact_radius = (TOUCH / self.geometry.to_window.scaling).clamp(3.0, 30.0);
-        let graph = Graph::new("network").zoom_range(0.1..=3.0).dot_grid(false).selected_nodes(selected);
+        let graph = Graph::new("network").zoom_range(zoom::RANGE).dot_grid(false).selected_nodes(selected);
         let shown = graph.show(&mut self.view, ui, |ui, show| {
             scene.begin(ui);
             scene.grid(ui);
@@ -177,11 +181,16 @@ impl NetworkPanel {
         self.apply(Action::Add(type_id.to_owned(), self.geometry.center()), context, session);
     }
 
-    /// Notices whether keys are meant for the canvas: they are after a click on it.
+    /// Notices whether keys are meant for the canvas: they are once the pointer moved over it, until a click elsewhere.
     fn notice(&mut self, ui: &Ui, area: Rect) {
-        let pressed = ui.input(|input| input.pointer.any_pressed().then(|| input.pointer.interact_pos()).flatten());
+        let (pressed, moved) = ui.input(|input| {
+            let pressed = input.pointer.any_pressed().then(|| input.pointer.interact_pos()).flatten();
+            (pressed, input.pointer.is_moving().then(|| input.pointer.latest_pos()).flatten())
+        });
         if let Some(at) = pressed {
             self.attentive = area.contains(at);
+        } else if moved.is_some_and(|at| area.contains(at)) {
+            self.attentive = true;
         }
     }
 
@@ -342,7 +351,8 @@ impl NetworkPanel {
 
     /// What resting on a node, a socket or a wire shows.
     fn tooltips(&self, ui: &Ui, session: &mut Session, resting: Vec<(Response, Resting)>) {
-        if self.drag.is_some() || self.loose_end.is_some() || ui.input(|input| input.pointer.any_down()) {
+        let asks = self.loose_end.is_some() || self.loose_link.is_some() || egui::Popup::is_any_open(ui.ctx());
+        if asks || self.drag.is_some() || ui.input(|input| input.pointer.any_down()) {
             return;
         }
         let pointer = ui.input(|input| input.pointer.latest_pos());

@@ -74,6 +74,11 @@ pub struct Card {
     pub zoom: f32,
 }
 
+/// The border of a node at rest, to be seen on the canvas and on the frames there.
+fn border(visuals: &egui::Visuals) -> Color32 {
+    if visuals.dark_mode { Color32::from_gray(0x70) } else { Color32::from_gray(0x84) }
+}
+
 /// The border and filling of a node.
 pub fn frame(ui: &egui::Style, state: &State, interaction: NodeInteraction) -> egui::Frame {
     let visuals = &ui.visuals;
@@ -81,7 +86,7 @@ pub fn frame(ui: &egui::Style, state: &State, interaction: NodeInteraction) -> e
         _ if interaction.selected || interaction.in_selection_rect => Stroke::new(2.0, visuals.selection.stroke.color),
         State::Failed(_) => Stroke::new(2.0, state.color()),
         _ if interaction.hovered => Stroke::new(1.0, visuals.widgets.hovered.bg_stroke.color),
-        _ => Stroke::new(1.0, visuals.widgets.noninteractive.bg_stroke.color),
+        _ => Stroke::new(1.0, border(visuals)),
     };
     egui::Frame::new()
         .fill(visuals.window_fill)

@@ -163,6 +163,14 @@ impl<'a> Scene<'a> {
         }
         // The library sees no click that begins and ends within one frame.
         let clicked = response.clicked() && !ui.input(|input| input.modifiers.any());
+        let at_once = ui.input(|input| input.pointer.primary_pressed() && input.pointer.primary_released());
+        if response.clicked() && at_once && ui.input(|input| input.modifiers.command || input.modifiers.shift) {
+            let mut selection = self.session.selection.clone();
+            if !selection.remove(id) {
+                selection.insert(id.to_owned());
+            }
+            self.actions.push(Action::Select(selection));
+        }
         if (clicked || response.secondary_clicked()) && !self.session.selection.contains(id) {
             self.actions.push(Action::Select([id.to_owned()].into()));
         }
@@ -275,16 +283,21 @@ impl<'a> Scene<'a> {
         let loaded = self.under_load.as_ref() == Some(wire);
         let mut selected = self.selected.contains(wire);
         let halo = ui.visuals().selection.stroke.color.gamma_multiply(0.55);
-        let edge = Edge::new(places.0, places.1, &mut selected).shape(WIRE).show_with(context, ui, |ui, paint| {
-            if held {
-                return;
-            }
-            if paint.selected || loaded {
-                ui.painter().add(Shape::line(paint.points.to_vec(), Stroke::new(7.0, halo)));
-            }
-            let width = if paint.hovered || loaded { 4.0 } else { 2.5 };
-            ui.painter().add(Shape::line(paint.points.to_vec(), Stroke::new(width, color)));
-        });
+        let way = self.geometry.way(wire);
+        let edge = Edge::new(places.0, places.1, &mut selected).shape(WIRE).waypoints(&way).show_with(
+            context,
+            ui,
+            |ui, paint| {
+                if held {
+                    return;
+                }
+                if paint.selected || loaded {
+                    ui.painter().add(Shape::line(paint.points.to_vec(), Stroke::new(7.0, halo)));
+                }
+                let width = if paint.hovered || loaded { 4.0 } else { 2.5 };
+                ui.painter().add(Shape::line(paint.points.to_vec(), Stroke::new(width, color)));
+            },
+        );
         edge.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("wire {wire}")));
         let changed = edge.changed();
         let response: Response = edge.into();
@@ -323,8 +336,8 @@ impl<'a> Scene<'a> {
             _ => (loose, color(drag.anchor.types(self.session.network()).first().copied())),
         };
         let path = match drag.anchor {
-            End::Outport(_) => Geometry::path(start, end),
-            End::Inport(_) => Geometry::path(end, start),
+            End::Outport(_) => Geometry::path(start, &[], end),
+            End::Inport(_) => Geometry::path(end, &[], start),
         };
         let points: Vec<Pos2> = path.flatten(5.0).collect();
         ui.painter().add(Shape::line(points, Stroke::new(3.0, color)));

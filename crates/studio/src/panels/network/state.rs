@@ -107,7 +107,7 @@ pub fn tooltip(ui: &mut Ui, session: &Session, id: &str) {
                 ui.colored_label(state.color(), reason);
             }
         }
-        State::Failed(error) => drop(ui.colored_label(state.color(), error)),
+        State::Failed(error) => drop(theme::report(ui, theme::ERROR, error)),
         State::Running(part) => {
             let far = part.map(|part| format!(", {:.0} %", part * 100.0)).unwrap_or_default();
             ui.colored_label(state.color(), format!("running{far}"));

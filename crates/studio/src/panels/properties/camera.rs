@@ -5,7 +5,8 @@ use rayloom_network::{Camera, Projection, PropertyDecl};
 
 use super::editor::Surroundings;
 use super::number::Number;
-use super::{upstream, vector};
+use super::vector;
+use crate::upstream;
 use crate::views::VIEWS;
 
 /// Shows a camera; the new one if the user changed it into one that forms an image.

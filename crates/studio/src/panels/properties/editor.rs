@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use egui::{Color32, Ui};
 use rayloom_network::{Address, Network, ProcessError, Properties, PropertyDecl, PropertyKind, Value};
@@ -16,6 +17,9 @@ use super::{camera, choice, file, labels, light, shader_text, text, transfer_fun
 use crate::dialogs::{Chooser, Dialogs};
 use crate::probe::Mark;
 use crate::theme;
+
+/// How long it is told why a number was refused.
+const COMPLAINT_SHOWN: Duration = Duration::from_secs(8);
 
 /// Ends beyond this are no help to a slider.
 const ENDLESS: f64 = 1e9;
@@ -38,7 +42,7 @@ pub(super) struct Tools {
     /// Texts that are not applied yet.
     pub drafts: BTreeMap<Address, String>,
     /// What was wrong with what was typed last.
-    complaints: BTreeMap<Address, String>,
+    complaints: BTreeMap<Address, (String, Instant)>,
 }
 
 impl Tools {
@@ -90,7 +94,7 @@ impl Surroundings<'_> {
                 Some(value)
             }
             Entered::Bad(why) => {
-                self.tools.complaints.insert(address, why);
+                self.tools.complaints.insert(address, (why, Instant::now()));
                 None
             }
         }
@@ -98,7 +102,7 @@ impl Surroundings<'_> {
 
     /// The channel of the volume that the processor looks at.
     pub fn channel(&self, volume: &Volume) -> u32 {
-        super::upstream::channel(volume, self.properties.int("channel").ok())
+        crate::upstream::channel(volume, self.properties.int("channel").ok())
     }
 }
 
@@ -156,10 +160,19 @@ pub(super) fn show(
 }
 
 /// Says what was wrong with what was typed last.
-pub(super) fn complaint(ui: &mut Ui, decl: &PropertyDecl, surroundings: &Surroundings<'_>) {
-    if let Some(why) = surroundings.tools.complaints.get(&surroundings.address(decl)) {
-        ui.label(egui::RichText::new(why).size(11.5).color(theme::ink(ui.visuals(), theme::ERROR)));
-    }
+pub(super) fn complaint(ui: &Ui, decl: &PropertyDecl, row: egui::Rect, surroundings: &mut Surroundings<'_>) {
+    let address = surroundings.address(decl);
+    let Some((why, since)) = surroundings.tools.complaints.get(&address) else { return };
+    let rest = COMPLAINT_SHOWN.checked_sub(since.elapsed());
+    let Some(rest) = rest.filter(|_| !ui.input(|input| input.pointer.any_pressed())) else {
+        surroundings.tools.complaints.remove(&address);
+        return;
+    };
+    ui.ctx().request_repaint_after(rest);
+    ui.painter().rect_stroke(row, 3.0, egui::Stroke::new(1.0, theme::ERROR), egui::StrokeKind::Outside);
+    // Over the rows below: what moved under the pointer would be hit by mistake.
+    egui::Tooltip::always_open(ui.ctx().clone(), ui.layer_id(), ui.id().with("complaint"), row)
+        .show(|ui| theme::colored(ui, theme::ERROR, egui::RichText::new(why).size(11.5)));
 }
 
 /// What values are possible, in words.

@@ -6,8 +6,9 @@ use rayloom_network::PropertyDecl;
 
 use super::editor::Surroundings;
 use super::outline::Entry;
-use super::{PropertiesPanel, row, upstream};
+use super::{PropertiesPanel, row};
 use crate::session::Session;
+use crate::upstream;
 
 impl PropertiesPanel {
     /// Shows properties, each by the id of its processor and a declaration, which may have a label and range of its own.

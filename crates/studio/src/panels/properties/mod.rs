@@ -21,13 +21,13 @@ mod shader_text;
 mod text;
 mod transfer_function;
 mod transfer_function_2d;
-mod upstream;
 mod vector;
 
 use egui::{RichText, ScrollArea};
 use rayloom_network::{Network, Processor, Properties, PropertyDecl};
 
 use crate::session::Session;
+use crate::upstream;
 use action::Action;
 use editor::{Surroundings, Tools};
 use outline::{Entry, Section};

@@ -61,7 +61,7 @@ fn show(
     let changed = value != decl.default;
     ui.push_id(&decl.id, |ui| {
         let wide = is_wide(&decl.kind);
-        ui.horizontal(|ui| {
+        let row = ui.horizontal(|ui| {
             ui.set_min_height(HEIGHT);
             let width = ui.available_width();
             let name_width = (NAMES * (width + indent)).clamp(70.0, 180.0) - indent;
@@ -88,7 +88,7 @@ fn show(
         }
         let typed = super::as_text::show(ui, decl, surroundings);
         surroundings.actions.extend(typed.map(|value| Action::Set(address.clone(), value)));
-        editor::complaint(ui, decl, surroundings);
+        editor::complaint(ui, decl, row.response.rect, surroundings);
     });
 }
 

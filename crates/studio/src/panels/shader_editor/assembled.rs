@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use egui::{Color32, FontId, ScrollArea, Sense, Ui, Vec2};
+use egui::{Color32, FontId, RichText, ScrollArea, Sense, Ui, Vec2};
 use rayloom_wgsl::Assembled;
 
 use super::code::colored;
@@ -64,8 +64,14 @@ fn colors(assembled: &Assembled) -> BTreeMap<Arc<str>, Color32> {
     colors
 }
 
-/// The files with their colours; the one being edited first and strong.
+/// The files with their colours, when they are asked for: there are many.
 fn legend(ui: &mut Ui, colors: &BTreeMap<Arc<str>, Color32>, path: &str) {
+    let title = RichText::new(format!("{} files", colors.len())).size(11.0);
+    egui::CollapsingHeader::new(title).id_salt("files").show(ui, |ui| files(ui, colors, path));
+}
+
+/// The one being edited first and strong.
+fn files(ui: &mut Ui, colors: &BTreeMap<Arc<str>, Color32>, path: &str) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = Vec2::new(2.0, 1.0);
         ui.spacing_mut().interact_size.y = 0.0;

@@ -24,7 +24,7 @@ pub(in crate::panels) fn show(
     egui::Frame::new().fill(ui.visuals().extreme_bg_color).corner_radius(3).inner_margin(4).show(ui, |ui| {
         ScrollArea::both().id_salt(("code", label)).auto_shrink(false).show(ui, |ui| {
             ui.horizontal_top(|ui| {
-                numbers(ui, &font, text, problems);
+                let gutter = numbers(ui, &font, text);
                 // Lines are not wrapped: their numbers stand beside them.
                 let mut layouter = |ui: &Ui, text: &dyn egui::TextBuffer, _: f32| {
                     let job = colored(text.as_str(), &font, ui.visuals().dark_mode);
@@ -32,6 +32,8 @@ pub(in crate::panels) fn show(
                 };
                 let edit = TextEdit::multiline(text)
                     .desired_width(f32::INFINITY)
+                    // A click below the last line is meant for the text, too.
+                    .min_size(ui.available_size())
                     .frame(egui::Frame::NONE)
                     .margin(egui::Margin::ZERO)
                     .lock_focus(true)
@@ -40,6 +42,7 @@ pub(in crate::panels) fn show(
                 let response = &output.response.response;
                 ui.ctx().accesskit_node_builder(response.id, |node| node.set_label(label));
                 changed = response.changed();
+                gutter.paint(ui, &font, problems);
                 if let Some(cursor) = output.cursor_range {
                     *line = text.chars().take(cursor.primary.index.0).filter(|c| *c == '\n').count() as u32 + 1;
                 }
@@ -69,32 +72,52 @@ fn character(text: &str, (line, column): (u32, u32)) -> usize {
     (before + (column as usize - 1).min(length)).min(text.chars().count())
 }
 
-/// The numbers of lines; those with problems marked, with the message on hover.
-fn numbers(ui: &mut Ui, font: &FontId, text: &str, problems: &[&Problem]) {
+/// The column of line numbers: it has its place before the text, and stays in sight when that is scrolled sideways.
+struct Gutter {
+    area: egui::Rect,
+    lines: u32,
+}
+
+/// Makes room for the numbers of lines.
+fn numbers(ui: &mut Ui, font: &FontId, text: &str) -> Gutter {
     let lines = text.split('\n').count() as u32;
-    let mut job = LayoutJob::default();
-    for line in 1..=lines {
-        let bad = problems.iter().any(|problem| problem.line == line);
-        let color = if bad { theme::ERROR } else { ui.visuals().weak_text_color().gamma_multiply(0.6) };
-        let mark = if bad { "●" } else { " " };
-        job.append(&format!("{mark}{line:>3} \n"), 0.0, TextFormat::simple(font.clone(), color));
-    }
-    let galley = ui.fonts_mut(|fonts| fonts.layout_job(job));
-    let (area, response) = ui.allocate_exact_size(galley.size(), Sense::hover());
-    let row = row_height(ui, font);
-    if let Some(pointer) = response.hover_pos() {
-        let line = ((pointer.y - area.top()) / row) as u32 + 1;
-        if let Some(problem) = problems.iter().find(|problem| problem.line == line) {
-            response.on_hover_text(&problem.message);
+    let width = 5.0 * ui.fonts_mut(|fonts| fonts.glyph_width(font, '0'));
+    let size = Vec2::new(width, row_height(ui, font) * lines as f32);
+    Gutter { area: ui.allocate_exact_size(size, Sense::hover()).0, lines }
+}
+
+impl Gutter {
+    /// Draws the numbers over the text; those of lines with problems marked, with the message on hover.
+    fn paint(&self, ui: &Ui, font: &FontId, problems: &[&Problem]) {
+        let row = row_height(ui, font);
+        for problem in problems {
+            let top = self.area.top() + row * (problem.line as f32 - 1.0);
+            let band = egui::Rect::from_x_y_ranges(ui.clip_rect().x_range(), top..=top + row);
+            ui.painter().rect_filled(band, 0.0, theme::ERROR.gamma_multiply(0.12));
+        }
+        let mut job = LayoutJob::default();
+        for line in 1..=self.lines {
+            let bad = problems.iter().any(|problem| problem.line == line);
+            let color = if bad { theme::ERROR } else { ui.visuals().weak_text_color().gamma_multiply(0.6) };
+            let mark = if bad { "●" } else { " " };
+            job.append(&format!("{mark}{line:>3} \n"), 0.0, TextFormat::simple(font.clone(), color));
+        }
+        let galley = ui.fonts_mut(|fonts| fonts.layout_job(job));
+        let left = self.area.left().max(ui.clip_rect().left());
+        let area = egui::Rect::from_min_size(egui::pos2(left, self.area.top()), self.area.size());
+        if left > self.area.left() {
+            let behind = area.intersect(ui.clip_rect());
+            ui.painter().rect_filled(behind, 0.0, ui.visuals().extreme_bg_color);
+        }
+        ui.painter().galley(area.min, galley, Color32::GRAY);
+        let response = ui.interact(area, ui.id().with("line numbers"), Sense::hover());
+        if let Some(pointer) = response.hover_pos() {
+            let line = ((pointer.y - area.top()) / row) as u32 + 1;
+            if let Some(problem) = problems.iter().find(|problem| problem.line == line) {
+                response.on_hover_text(&problem.message);
+            }
         }
     }
-    let painter = ui.painter();
-    for problem in problems {
-        let top = area.top() + row * (problem.line as f32 - 1.0);
-        let band = egui::Rect::from_x_y_ranges(ui.clip_rect().x_range(), top..=top + row);
-        painter.rect_filled(band, 0.0, theme::ERROR.gamma_multiply(0.12));
-    }
-    painter.galley(area.min, galley, Color32::GRAY);
 }
 
 /// A text in the colours of its parts.

@@ -204,7 +204,10 @@ impl Editor {
     fn list(&mut self, ui: &mut Ui, place: &Place, problems: &[Problem]) {
         egui::ScrollArea::vertical().max_height(84.0).show(ui, |ui| {
             for problem in problems {
-                let text = RichText::new(problem.to_string()).size(11.5).color(theme::ink(ui.visuals(), theme::ERROR));
+                let text = RichText::new(problem.to_string())
+                    .monospace()
+                    .size(11.0)
+                    .color(theme::ink(ui.visuals(), theme::ERROR));
                 let label = egui::Label::new(text).sense(egui::Sense::click());
                 if ui.add(label).clicked() && problem.source == place.path {
                     self.jump = Some((problem.line.max(1), problem.column.max(1)));

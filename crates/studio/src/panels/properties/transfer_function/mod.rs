@@ -8,11 +8,12 @@ use rayloom_network::PropertyDecl;
 use rayloom_volume::{Histogram, TransferFunction, ValueRange};
 
 use super::editor::{Surroundings, rgb_button, screen_color};
+use super::exchange;
 use super::number::{self, Number};
 use super::row::HEIGHT;
 use super::transfer_function::knots::Side;
-use super::{exchange, upstream};
 use crate::pointer::dragged_by;
+use crate::upstream;
 use plot::Plot;
 
 /// Height of the plot, points.

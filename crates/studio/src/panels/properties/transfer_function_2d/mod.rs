@@ -9,12 +9,13 @@ use rayloom_network::{PropertyDecl, Value};
 use rayloom_volume::{Histogram2D, Primitive, TransferFunction2D, ValueRange};
 
 use super::editor::{Surroundings, rgb_button, screen_color};
+use super::exchange;
 use super::number::{self, Number};
 use super::row::HEIGHT;
 use super::transfer_function::plot::{self, Plot};
-use super::{exchange, upstream};
 use crate::pointer::dragged_by;
 use crate::probe::Mark;
+use crate::upstream;
 use shapes::Point;
 
 /// Height of the plane, points.

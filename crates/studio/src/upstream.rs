@@ -8,7 +8,7 @@ use rayloom_processors::Data;
 use rayloom_volume::{Volume, VolumeRole};
 
 /// The volume nearest upstream of a processor (or, for a source, its own), as last computed.
-pub(super) fn volume(network: &Network, outputs: &BTreeMap<Address, Data>, id: &str) -> Option<Arc<Volume>> {
+pub fn volume(network: &Network, outputs: &BTreeMap<Address, Data>, id: &str) -> Option<Arc<Volume>> {
     let mut queue = VecDeque::from([id]);
     let mut seen = BTreeSet::new();
     while let Some(id) = queue.pop_front() {
@@ -29,7 +29,7 @@ pub(super) fn volume(network: &Network, outputs: &BTreeMap<Address, Data>, id: &
 }
 
 /// The channel of a volume that a processor classifies: the value of a gradient volume, else the one it chooses.
-pub(super) fn channel(volume: &Volume, chosen: Option<i64>) -> u32 {
+pub fn channel(volume: &Volume, chosen: Option<i64>) -> u32 {
     match volume.role {
         VolumeRole::GradientAndValue => 3,
         VolumeRole::Values => chosen.and_then(|c| u32::try_from(c).ok()).unwrap_or(0),
@@ -38,7 +38,7 @@ pub(super) fn channel(volume: &Volume, chosen: Option<i64>) -> u32 {
 }
 
 /// Centre and radius, world units, of the sphere around a volume's box.
-pub(super) fn bounds(volume: &Volume) -> ([f64; 3], f64) {
+pub fn bounds(volume: &Volume) -> ([f64; 3], f64) {
     let to_world = volume.texture_to_world();
     let half = to_world.matrix3 * 0.5;
     let center = to_world.translation + half.x_axis + half.y_axis + half.z_axis;
