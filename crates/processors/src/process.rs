@@ -57,7 +57,13 @@ pub struct Runner {
 impl Runner {
     /// A runner for all processors of this crate.
     pub fn new(gpu: Gpu) -> Result<Self, GpuError> {
-        let processes = processors().into_iter().map(|process| (process.declaration().id.clone(), process)).collect();
+        Self::with(gpu, Vec::new())
+    }
+
+    /// A runner for all processors of this crate and some more.
+    pub fn with(gpu: Gpu, more: Vec<Arc<dyn Process>>) -> Result<Self, GpuError> {
+        let processes = processors().into_iter().chain(more).map(|process| (process.declaration().id.clone(), process));
+        let processes = processes.collect();
         Ok(Self { context: Context::new(gpu)?, processes })
     }
 

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use egui_tiles::{Tree, UiResponse};
 use rayloom_network::Address;
-use rayloom_processors::registry;
+use rayloom_processors::{Process, registry};
 
 use crate::commands::{self, KeyList};
 use crate::device::{Complaints, LOST};
@@ -28,6 +28,9 @@ use crate::welcome::{self, Welcome};
 /// How long the status line shows a message.
 const MESSAGE_SHOWN: Duration = Duration::from_secs(10);
 
+/// Makes processors.
+pub type MoreProcessors = fn() -> Vec<Arc<dyn Process>>;
+
 /// What to start with.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
@@ -43,6 +46,8 @@ pub struct Options {
     pub shipped: Option<PathBuf>,
     /// Whether to begin with the welcome page.
     pub welcome: bool,
+    /// Makes processors that there are besides those of the program.
+    pub more_processors: Option<MoreProcessors>,
 }
 
 /// The application.
@@ -74,12 +79,15 @@ impl Studio {
         let gpu = gpu_of(renderer);
         let complaints = Complaints::of(&gpu.device);
         let context = creation.egui_ctx.clone();
-        let engine = Engine::start(gpu.clone(), move || context.request_repaint())?;
+        let more = options.more_processors.map(|make| make()).unwrap_or_default();
+        let mut registry = registry();
+        more.iter().try_for_each(|process| registry.add(process.clone()))?;
+        let engine = Engine::start(gpu.clone(), more, move || context.request_repaint())?;
         let display = Display::new(gpu, renderer.clone());
         theme::apply(&creation.egui_ctx);
         // Its keys are commands of the table like all others.
         creation.egui_ctx.options_mut(|options| options.zoom_with_keyboard = false);
-        let mut session = Session::new(Arc::new(registry()), engine, display);
+        let mut session = Session::new(Arc::new(registry), engine, display);
         session.chooser = options.chooser.clone();
         let (document, warnings, failure) = files::first_document(options.network.as_deref(), &session.registry);
         session.show(document, &warnings);

@@ -11,7 +11,7 @@ use rayloom_gpu::{Gpu, GpuError};
 use rayloom_network::{
     Address, Backend, Evaluator, Facts, Job, Level, Network, Outputs, ProcessError, Report, Request, Run, Sinks,
 };
-use rayloom_processors::{Data, Image, Picture, Runner, Trace, snippet_revision, types};
+use rayloom_processors::{Data, Image, Picture, Process, Runner, Trace, snippet_revision, types};
 use rayloom_volume::Progress;
 use rayloom_wgsl::Validated;
 
@@ -136,12 +136,17 @@ pub struct Engine {
 }
 
 impl Engine {
-    /// Starts the thread on a device. `wake` is called from it whenever there is news.
+    /// Starts the thread on a device, with processors that there are besides those of the program. `wake` is called from it
+    /// whenever there is news.
     ///
     /// # Errors
     /// The device cannot be used.
-    pub fn start(gpu: Gpu, wake: impl Fn() + Send + Clone + 'static) -> Result<Self, GpuError> {
-        let mut runner = Runner::new(gpu)?;
+    pub fn start(
+        gpu: Gpu,
+        more: Vec<Arc<dyn Process>>,
+        wake: impl Fn() + Send + Clone + 'static,
+    ) -> Result<Self, GpuError> {
+        let mut runner = Runner::with(gpu, more)?;
         runner.measure(true);
         let (tasks, inbox) = channel();
         let (outbox, news) = channel();

@@ -38,7 +38,7 @@ mod visualization;
 mod welcome;
 mod wiring;
 
-pub use app::{Options, Studio};
+pub use app::{MoreProcessors, Options, Studio};
 pub use device::setup as wgpu_setup;
 pub use dialogs::{Choice, Chooser, Question};
 pub use display::{Display, Layer, Look};

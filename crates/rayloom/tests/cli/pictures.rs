@@ -132,7 +132,7 @@ fn the_studio_writes_the_very_picture_at_any_size() {
     let registry = std::sync::Arc::new(rayloom_processors::registry());
     let loaded = rayloom_network::Network::load(Path::new(&network), &registry).expect("a network").network;
     let gpu = rayloom_gpu::Gpu::new(&rayloom_gpu::GpuOptions::default()).expect("a device");
-    let mut engine = rayloom_studio::Engine::start(gpu, || {}).expect("an engine");
+    let mut engine = rayloom_studio::Engine::start(gpu, Vec::new(), || {}).expect("an engine");
     // What the window shows meanwhile has another size and does not matter.
     engine.order(1, &loaded, rayloom_network::Request { size: Some([64, 64]), ..Default::default() }, false);
     let picture = engine.photographer().picture(loaded.clone(), "canvas", [97, 61]).expect("a picture");

@@ -10,6 +10,7 @@ use super::NetworkPanel;
 use super::drag::Drag;
 use super::frames::{self, FrameEdit};
 use super::menus::LooseLink;
+use super::socket::Socket;
 use crate::pane::Pane;
 use crate::session::{Session, Severity};
 use crate::wiring::{self, End};
@@ -22,7 +23,7 @@ pub enum Action {
     /// Adds a wire to the selection, or takes it out.
     SelectWire(Connection, bool),
     /// Takes hold of a socket.
-    Hold(End),
+    Hold(Socket),
     /// Connects; the wire held before, if any, goes away.
     Connect(Connection, Option<Connection>),
     /// Removes one wire.
@@ -91,7 +92,7 @@ impl NetworkPanel {
             Action::SelectAll => {
                 session.selection = session.network().processors().map(|p| p.id().to_owned()).collect()
             }
-            Action::Hold(end) => self.drag = Some(Drag::start(session.network(), end)),
+            Action::Hold(socket) => self.drag = Some(Drag::start(session.network(), socket)),
             Action::Connect(wire, held) => connect(session, &wire, held.as_ref()),
             Action::Cut(wire) => cut(session, &wire),
             Action::Pin(outport) => session.to_open.push(Pane::Inspector(outport)),
@@ -221,12 +222,15 @@ fn copy(context: &egui::Context, session: &mut Session) {
     }
 }
 
-/// The data that a wire or a socket shows: that of the outport behind it.
-pub fn shown_at(network: &Network, end: &End) -> Option<Address> {
-    match end {
-        End::Outport(address) => Some(address.clone()),
-        End::Inport(address) => {
-            network.connections().iter().find(|wire| wire.to == *address).map(|wire| wire.from.clone())
+/// The data that a socket shows: that of the outport behind it. Where several wires end, each has a socket that shows it.
+pub fn shown_at(network: &Network, socket: &Socket) -> Option<Address> {
+    match (&socket.wire, &socket.end) {
+        (Some(wire), _) => Some(wire.from.clone()),
+        (None, End::Outport(address)) => Some(address.clone()),
+        (None, End::Inport(address)) => {
+            let mut wires = network.inputs(&address.processor).filter(|wire| wire.to == *address);
+            let first = wires.next()?;
+            wires.next().is_none().then(|| first.from.clone())
         }
     }
 }

@@ -21,7 +21,7 @@ impl NetworkPanel {
             let id = processor.id();
             let rect = *self.geometry.nodes.get(id)?;
             let declaration = processor.declaration();
-            let offset = |end: &End| self.geometry.sockets.get(end).map_or(f32::NAN, |at| at.y - rect.top());
+            let offset = |end: &End| self.geometry.place(end).map_or(f32::NAN, |at| at.y - rect.top());
             let inputs =
                 declaration.map(|d| d.inports.iter().map(|p| offset(&End::Inport((id, p.id.as_str()).into()))));
             let outputs =

@@ -6,6 +6,7 @@ use egui::Pos2;
 use rayloom_network::{Connection, Network};
 
 use super::geometry::Geometry;
+use super::socket::Socket;
 use crate::wiring::{End, verdict};
 
 /// A wire being drawn, or taken off and held.
@@ -33,16 +34,9 @@ pub enum Target {
 
 impl Drag {
     /// Takes hold of a socket: of its wire if there is one that can be moved, else of a new one.
-    pub fn start(network: &Network, at: End) -> Self {
-        let held = match &at {
-            End::Inport(to) => {
-                let inport = network.processor(&to.processor).and_then(|p| p.declaration()?.inport(&to.item));
-                let one = inport.is_some_and(|port| !port.several);
-                network.connections().iter().find(|wire| one && wire.to == *to).cloned()
-            }
-            End::Outport(_) => None,
-        };
-        let anchor = held.as_ref().map_or(at, |wire| End::Outport(wire.from.clone()));
+    pub fn start(network: &Network, at: Socket) -> Self {
+        let held = at.wire.or_else(|| only_wire(network, &at.end));
+        let anchor = held.as_ref().map_or(at.end, |wire| End::Outport(wire.from.clone()));
         let mut without = network.clone();
         if let Some(wire) = &held {
             without.disconnect(&wire.from, &wire.to);
@@ -64,7 +58,7 @@ impl Drag {
     /// What happens if the wire is let go at a point of the canvas.
     pub fn target(&self, geometry: &Geometry, at: Pos2) -> Target {
         let near = geometry.socket_near(at, |end| self.opposite(end));
-        if let Some(end) = near.or_else(|| self.best_of(geometry.node_at(at)?)) {
+        if let Some(end) = near.map(|socket| &socket.end).or_else(|| self.best_of(geometry.node_at(at)?)) {
             let was = self.held.as_ref().is_some_and(|wire| wire.to == *end.address());
             return if was { Target::Back } else { self.judge(end) };
         }
@@ -91,6 +85,13 @@ impl Drag {
         let first = ports.clone().next();
         ports.find(|end| self.fits(end)).or(first)
     }
+}
+
+/// The wire into an inport for one.
+fn only_wire(network: &Network, end: &End) -> Option<Connection> {
+    let End::Inport(to) = end else { return None };
+    let inport = network.processor(&to.processor)?.declaration()?.inport(&to.item)?;
+    network.inputs(&to.processor).find(|wire| !inport.several && wire.to == *to).cloned()
 }
 
 /// All ports of a network.

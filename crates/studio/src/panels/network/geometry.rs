@@ -9,6 +9,7 @@ use egui_graph::edge::EdgeShape;
 use rayloom_network::{Connection, Network};
 
 use super::route;
+use super::socket::Socket;
 use crate::wiring::End;
 
 /// How wires run.
@@ -28,7 +29,7 @@ pub struct Geometry {
     /// The frames of the nodes, by processor.
     pub nodes: BTreeMap<String, Rect>,
     /// The sockets of the nodes in view.
-    pub sockets: BTreeMap<End, Pos2>,
+    pub sockets: BTreeMap<Socket, Pos2>,
     /// From the canvas to the window.
     pub to_window: TSTransform,
     /// The panel, in the window.
@@ -63,15 +64,20 @@ impl Geometry {
     }
 
     /// The nearest socket that a wire at a point snaps to, among those that `wanted` lets through.
-    pub fn socket_near(&self, at: Pos2, wanted: impl Fn(&End) -> bool) -> Option<&End> {
-        let near = self.sockets.iter().filter(|(end, place)| place.distance(at) < SNAP && wanted(end));
-        near.min_by(|a, b| a.1.distance_sq(at).total_cmp(&b.1.distance_sq(at))).map(|(end, _)| end)
+    pub fn socket_near(&self, at: Pos2, wanted: impl Fn(&End) -> bool) -> Option<&Socket> {
+        let near = self.sockets.iter().filter(|(socket, place)| place.distance(at) < SNAP && wanted(&socket.end));
+        near.min_by(|a, b| a.1.distance_sq(at).total_cmp(&b.1.distance_sq(at))).map(|(socket, _)| socket)
+    }
+
+    /// Where the socket of a port is.
+    pub fn place(&self, end: &End) -> Option<Pos2> {
+        self.sockets.get(&Socket::of(end.clone())).copied()
     }
 
     /// The socket of a processor that covers a point.
-    pub fn socket_at(&self, at: Pos2, processor: &str) -> Option<&End> {
+    pub fn socket_at(&self, at: Pos2, processor: &str) -> Option<&Socket> {
         self.socket_near(at, |end| end.address().processor == processor)
-            .filter(|end| self.sockets.get(end).is_some_and(|place| place.distance(at) <= RADIUS))
+            .filter(|socket| self.sockets.get(socket).is_some_and(|place| place.distance(at) <= RADIUS))
     }
 
     /// The way of a wire between two points, the first where data comes out, by others.
@@ -81,16 +87,21 @@ impl Geometry {
 
     /// The points by which a connection's wire goes around the nodes in its way.
     pub fn way(&self, wire: &Connection) -> Vec<Pos2> {
-        let from = self.sockets.get(&End::Outport(wire.from.clone()));
-        let Some((from, to)) = from.zip(self.sockets.get(&End::Inport(wire.to.clone()))) else { return Vec::new() };
-        route::around(*from, *to, self.nodes.values().copied())
+        let Some((from, to)) = self.ends(wire) else { return Vec::new() };
+        route::around(from, to, self.nodes.values().copied())
+    }
+
+    /// Where a connection's wire begins and ends, if that is in view.
+    fn ends(&self, wire: &Connection) -> Option<(Pos2, Pos2)> {
+        let own = self.sockets.get(&Socket::of_wire(wire)).copied();
+        let to = own.or_else(|| self.place(&End::Inport(wire.to.clone())))?;
+        Some((self.place(&End::Outport(wire.from.clone()))?, to))
     }
 
     /// The points of a connection's wire, if both its ends are in view.
     pub fn points(&self, wire: &Connection) -> Option<Vec<Pos2>> {
-        let from = self.sockets.get(&End::Outport(wire.from.clone()))?;
-        let to = self.sockets.get(&End::Inport(wire.to.clone()))?;
-        Some(Self::path(*from, &self.way(wire), *to).flatten(STEP).collect())
+        let (from, to) = self.ends(wire)?;
+        Some(Self::path(from, &self.way(wire), to).flatten(STEP).collect())
     }
 
     /// The connection whose wire passes a point; the nearest where several do.

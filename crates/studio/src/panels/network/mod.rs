@@ -10,6 +10,7 @@ mod minimap;
 mod node;
 mod route;
 mod scene;
+mod socket;
 pub(super) mod state;
 mod svg;
 mod text;
@@ -33,6 +34,7 @@ use drag::{Drag, Target};
 use geometry::Geometry;
 use menus::{LooseEnd, LooseLink};
 use scene::{Resting, Scene, node_id};
+use socket::Socket;
 
 /// Distance from a wire at which the pointer touches it, points of the window.
 const TOUCH: f32 = 6.0;
@@ -41,6 +43,7 @@ const TOUCH: f32 = 6.0;
 pub const GESTURES: &[(&str, &str)] = &[
     ("Drag a socket", "connect; on empty canvas: add what fits"),
     ("Drag a wire's end", "plug it elsewhere, or cut it"),
+    ("Drop on a doubled socket", "add to the wires there"),
     ("Alt and click", "cut a wire"),
     ("Rest on a wire", "see what flows there"),
     ("Drag", "select; with a node: move it"),
@@ -361,10 +364,12 @@ impl NetworkPanel {
             match what {
                 // The inner half of a socket lies on its node.
                 Resting::Node(id) => drop(match on_canvas.and_then(|at| self.geometry.socket_at(at, &id)) {
-                    Some(end) => response.on_hover_ui_at_pointer(|ui| socket_tooltip(ui, session, end)),
+                    Some(socket) => response.on_hover_ui_at_pointer(|ui| socket_tooltip(ui, session, socket)),
                     None => response.on_hover_ui(|ui| state::tooltip(ui, session, &id)),
                 }),
-                Resting::Socket(end) => drop(response.on_hover_ui_at_pointer(|ui| socket_tooltip(ui, session, &end))),
+                Resting::Socket(socket) => {
+                    response.on_hover_ui_at_pointer(|ui| socket_tooltip(ui, session, &socket));
+                }
                 // Where wires lie side by side, the library knows the last one that is near, not the nearest.
                 Resting::Wire(wire) => {
                     let nearest = on_canvas.filter(|_| response.hovered());
@@ -399,8 +404,9 @@ impl NetworkPanel {
 }
 
 /// What resting on a socket shows: what it is for, and what is there.
-fn socket_tooltip(ui: &mut Ui, session: &mut Session, end: &End) {
+fn socket_tooltip(ui: &mut Ui, session: &mut Session, socket: &Socket) {
     ui.set_max_width(360.0);
+    let end = &socket.end;
     let address = end.address();
     let declaration = session.network().processor(&address.processor).and_then(|p| p.declaration());
     let (label, help) = match end {
@@ -409,13 +415,16 @@ fn socket_tooltip(ui: &mut Ui, session: &mut Session, end: &End) {
     }
     .map(|(label, help)| (label.clone(), help.clone()))
     .unwrap_or_default();
-    let types = end.types(session.network()).iter().map(ToString::to_string).collect::<Vec<_>>().join(" or ");
+    let mut types = end.types(session.network()).iter().map(ToString::to_string).collect::<Vec<_>>().join(" or ");
+    if matches!(end, End::Inport(_)) && declaration.and_then(|d| d.inport(&address.item)).is_some_and(|p| p.several) {
+        types += ", takes several";
+    }
     ui.horizontal(|ui| {
         ui.strong(label);
         ui.weak(format!("{address}, {types}"));
     });
     ui.label(help);
-    if let Some(shown) = action::shown_at(session.network(), end) {
+    if let Some(shown) = action::shown_at(session.network(), socket) {
         ui.separator();
         inspect::hover(ui, session, &shown);
     }

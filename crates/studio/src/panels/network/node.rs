@@ -42,6 +42,17 @@ pub enum Light {
     Dim,
 }
 
+/// What a socket stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// A port.
+    One,
+    /// An inport that takes several wires: here they are added.
+    Several,
+    /// One of several wires of the port above.
+    Wire,
+}
+
 /// A port as it is drawn.
 pub struct Port {
     /// Its name.
@@ -54,6 +65,8 @@ pub struct Port {
     pub optional: bool,
     /// How it shows.
     pub light: Light,
+    /// What it stands for.
+    pub role: Role,
 }
 
 /// A node as it is drawn.
@@ -97,6 +110,13 @@ pub fn frame(ui: &egui::Style, state: &State, interaction: NodeInteraction) -> e
         .shadow(egui::Shadow { offset: [0, 3], blur: 10, spread: 0, color: Color32::from_black_alpha(60) })
 }
 
+impl Port {
+    /// Space between the border and its name: wires are listed under the name of their port.
+    fn inset(&self) -> f32 {
+        if self.role == Role::Wire { 1.7 * MARGIN } else { MARGIN }
+    }
+}
+
 impl Card {
     /// Draws the contents and says where the sockets are.
     pub fn show(&self, ui: &mut Ui, sockets: &mut SocketLayout) {
@@ -122,10 +142,11 @@ impl Card {
         }
         let color = match port.light {
             Light::Dim => ui.visuals().weak_text_color().gamma_multiply(0.6),
+            _ if port.role == Role::Wire => ui.visuals().weak_text_color(),
             _ => ui.visuals().text_color(),
         };
         let text = Text::new(ui.painter(), &port.label, PORT, color, self.zoom);
-        let left = rect.left() + MARGIN + side * (rect.width() - 2.0 * MARGIN - text.size().x);
+        let left = rect.left() + port.inset() + side * (rect.width() - MARGIN - port.inset() - text.size().x);
         let top = row(rect, index) - 0.5 * text.size().y;
         text.paint(ui.painter(), Pos2::new(left, top));
     }
@@ -175,7 +196,9 @@ impl Card {
     /// The width that all texts fit in, the same at every zoom.
     fn width(&self, painter: &Painter) -> f32 {
         let width = |text: &str, size| Text::new(painter, text, size, Color32::PLACEHOLDER, 1.0).size().x;
-        let column = |ports: &[Port]| ports.iter().map(|port| width(&port.label, PORT)).fold(0.0, f32::max);
+        let column = |ports: &[Port]| {
+            ports.iter().map(|port| width(&port.label, PORT) + port.inset() - MARGIN).fold(0.0, f32::max)
+        };
         let title = width(&self.title, TITLE) + 20.0;
         // Room for any time, so that nothing moves when one gets longer.
         let kind = width(&self.kind, KIND) + 60.0;
@@ -193,7 +216,8 @@ fn row(rect: Rect, index: usize) -> f32 {
 pub fn socket(ui: &Ui, node: &Response, socket: &Response, port: &Port, outwards: f32) {
     let painter = ui.painter().clone().with_layer_id(node.layer_id);
     let center = socket.rect.center() + Vec2::new(2.0 * outwards, 0.0);
-    let ring = if port.connected || !port.optional { SOCKET } else { SOCKET - 1.0 };
+    let small = port.role == Role::Wire || (port.optional && !port.connected);
+    let ring = if small { SOCKET - 1.0 } else { SOCKET };
     let (radius, color) = match port.light {
         Light::Dim => (ring, port.color.gamma_multiply(0.25)),
         Light::Chosen => (ring + 2.0, port.color),
@@ -205,4 +229,8 @@ pub fn socket(ui: &Ui, node: &Response, socket: &Response, port: &Port, outwards
     }
     let inside = if port.connected { color } else { ui.visuals().window_fill };
     painter.circle(center, radius, inside, Stroke::new(2.0, color));
+    if port.role == Role::Several {
+        // Doubled: there is room for more.
+        painter.circle_stroke(center, radius + 3.5, Stroke::new(1.5, color));
+    }
 }

@@ -6,14 +6,15 @@ use egui::{Color32, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, UiBuilder, V
 use egui_graph::edge::Edge;
 use egui_graph::node::{EdgeEvent, Node, NodeId};
 use egui_graph::{EdgesCtx, NodesCtx, SocketKind};
-use rayloom_network::{Address, Connection, Network, PortType, Processor};
+use rayloom_network::{Address, Connection, PortType, Processor};
 
 use super::action::Action;
 use super::drag::{Drag, Target};
 use super::frames;
 use super::geometry::{Geometry, RADIUS, WIRE};
 use super::menus;
-use super::node::{self, Card, Light, Port, ROW};
+use super::node::{self, Card, Light, Port, ROW, Role};
+use super::socket::{Socket, Sockets};
 use super::state::{State, cost, short};
 use super::waiting::waiting;
 use crate::session::Session;
@@ -31,23 +32,16 @@ pub enum Resting {
     /// A node.
     Node(String),
     /// A socket.
-    Socket(End),
+    Socket(Socket),
     /// A wire, by the outport whose data flows there.
     Wire(Connection),
-}
-
-/// The ids of a processor's inports and outports, as the sockets are numbered.
-#[derive(Default)]
-struct Ports<'a> {
-    inports: Vec<&'a str>,
-    outports: Vec<&'a str>,
 }
 
 /// One frame of the canvas.
 pub struct Scene<'a> {
     session: &'a Session,
-    ports: BTreeMap<&'a str, Ports<'a>>,
-    fed: BTreeSet<&'a Address>,
+    sockets: BTreeMap<&'a str, Sockets>,
+    fed: BTreeMap<&'a Address, Vec<&'a Connection>>,
     feeding: BTreeSet<&'a Address>,
     waiting: BTreeSet<&'a str>,
     /// A wire in the user's hand.
@@ -78,10 +72,11 @@ impl<'a> Scene<'a> {
     /// A frame of a session's network.
     pub fn new(session: &'a Session, selected: &'a BTreeSet<Connection>) -> Self {
         let network = session.network();
+        let fed = fed(network.connections());
         Self {
             session,
-            ports: network.processors().map(|p| (p.id(), ports(network, p))).collect(),
-            fed: network.connections().iter().map(|wire| &wire.to).collect(),
+            sockets: network.processors().map(|p| (p.id(), Sockets::of(network, p, &fed))).collect(),
+            fed,
             feeding: network.connections().iter().map(|wire| &wire.from).collect(),
             waiting: waiting(network),
             drag: None,
@@ -159,7 +154,7 @@ impl<'a> Scene<'a> {
             self.socket(ui, &response, (id, index, SocketKind::Output), socket, &card.outports[index]);
         }
         if let Some(EdgeEvent::Started { kind, index }) = response.edge_event() {
-            self.actions.extend(self.end(id, kind, index).map(Action::Hold));
+            self.actions.extend(self.numbered(id, kind, index).cloned().map(Action::Hold));
         }
         // The library sees no click that begins and ends within one frame.
         let clicked = response.clicked() && !ui.input(|input| input.modifiers.any());
@@ -183,19 +178,18 @@ impl<'a> Scene<'a> {
         ui: &mut Ui,
         node: &Response,
         (id, index, kind): (&str, usize, SocketKind),
-        socket: &Response,
+        response: &Response,
         port: &Port,
     ) {
-        let Some(end) = self.end(id, kind, index) else { return };
-        let grip = self.grip(ui, node, (index, kind), socket.rect.center());
+        let Some(socket) = self.numbered(id, kind, index).cloned() else { return };
+        let grip = self.grip(ui, node, (index, kind), response.rect.center());
         if grip.is_pointer_button_down_on() && ui.input(|input| input.pointer.primary_pressed()) {
-            self.actions.push(Action::Hold(end.clone()));
+            self.actions.push(Action::Hold(socket.clone()));
         }
         node::socket(ui, node, &grip, port, if kind == SocketKind::Input { -1.0 } else { 1.0 });
-        let side = if kind == SocketKind::Input { "input" } else { "output" };
-        grip.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("{side} {}", end.address())));
-        self.geometry.sockets.insert(end.clone(), socket.rect.center());
-        self.resting.push((grip, Resting::Socket(end)));
+        grip.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, socket.to_string()));
+        self.geometry.sockets.insert(socket.clone(), response.rect.center());
+        self.resting.push((grip, Resting::Socket(socket)));
     }
 
     /// Where a socket is taken hold of, over the node: the library lets go of wires only beside nodes, and there the pointer is
@@ -208,40 +202,18 @@ impl<'a> Scene<'a> {
         ui.scope_builder(builder, |ui| ui.interact(area, id, Sense::click_and_drag())).inner
     }
 
-    fn end(&self, id: &str, kind: SocketKind, index: usize) -> Option<End> {
-        let ports = self.ports.get(id)?;
+    fn numbered(&self, id: &str, kind: SocketKind, index: usize) -> Option<&Socket> {
+        let sockets = self.sockets.get(id)?;
         match kind {
-            SocketKind::Input => Some(End::Inport(Address::new(id, *ports.inports.get(index)?))),
-            SocketKind::Output => Some(End::Outport(Address::new(id, *ports.outports.get(index)?))),
+            SocketKind::Input => sockets.inputs.get(index),
+            SocketKind::Output => sockets.outputs.get(index),
         }
     }
 
     fn card(&self, processor: &'a Processor) -> Card {
         let id = processor.id();
-        let ports = &self.ports[id];
+        let sockets = &self.sockets[id];
         let declaration = processor.declaration();
-        let inport = |port: &&str| {
-            let end = End::Inport(Address::new(id, *port));
-            let inport = declaration.and_then(|d| d.inport(port));
-            Port {
-                label: inport.map_or((*port).to_owned(), |port| port.label.clone()),
-                color: color(inport.and_then(|port| port.accepts.first().copied())),
-                connected: self.fed.contains(end.address()),
-                optional: inport.is_none_or(|port| port.optional),
-                light: self.light(&end),
-            }
-        };
-        let outport = |port: &&str| {
-            let end = End::Outport(Address::new(id, *port));
-            let outport = declaration.and_then(|d| d.outport(port));
-            Port {
-                label: outport.map_or((*port).to_owned(), |port| port.label.clone()),
-                color: color(outport.map(|port| port.port_type)),
-                connected: self.feeding.contains(end.address()),
-                optional: false,
-                light: self.light(&end),
-            }
-        };
         let run = self.session.engine.results.runs.get(id);
         let state = State::of(self.session, id, self.waiting.contains(id));
         Card {
@@ -252,9 +224,40 @@ impl<'a> Scene<'a> {
                 _ => run.map(|run| short(cost(run))).unwrap_or_default(),
             },
             state,
-            inports: ports.inports.iter().map(inport).collect(),
-            outports: ports.outports.iter().map(outport).collect(),
+            inports: sockets.inputs.iter().map(|socket| self.inport(processor, socket)).collect(),
+            outports: sockets.outputs.iter().map(|socket| self.outport(processor, &socket.end)).collect(),
             zoom: self.geometry.to_window.scaling,
+        }
+    }
+
+    fn inport(&self, processor: &Processor, socket: &Socket) -> Port {
+        let Socket { end, wire } = socket;
+        let inport = processor.declaration().and_then(|d| d.inport(&end.address().item));
+        let port = Port {
+            label: inport.map_or(end.address().item.clone(), |port| port.label.clone()),
+            color: color(inport.and_then(|port| port.accepts.first().copied())),
+            connected: self.fed.contains_key(end.address()),
+            optional: inport.is_none_or(|port| port.optional),
+            light: self.light(end),
+            role: if inport.is_some_and(|port| port.several) { Role::Several } else { Role::One },
+        };
+        let Some(wire) = wire else { return port };
+        let source = self.session.network().processor(&wire.from.processor);
+        let name = source.and_then(Processor::label).unwrap_or(&wire.from.processor).to_owned();
+        // Wires are added at the socket of the port, not here.
+        let light = if port.light == Light::Dim { Light::Dim } else { Light::Normal };
+        Port { label: name, light, role: Role::Wire, ..port }
+    }
+
+    fn outport(&self, processor: &Processor, end: &End) -> Port {
+        let outport = processor.declaration().and_then(|d| d.outport(&end.address().item));
+        Port {
+            label: outport.map_or(end.address().item.clone(), |port| port.label.clone()),
+            color: color(outport.map(|port| port.port_type)),
+            connected: self.feeding.contains(end.address()),
+            optional: false,
+            light: self.light(end),
+            role: Role::One,
         }
     }
 
@@ -314,10 +317,8 @@ impl<'a> Scene<'a> {
     }
 
     fn places(&self, wire: &Connection) -> Option<((NodeId, usize), (NodeId, usize))> {
-        let outports = &self.ports.get(wire.from.processor.as_str())?.outports;
-        let inports = &self.ports.get(wire.to.processor.as_str())?.inports;
-        let output = outports.iter().position(|port| *port == wire.from.item)?;
-        let input = inports.iter().position(|port| *port == wire.to.item)?;
+        let output = self.sockets.get(wire.from.processor.as_str())?.output(wire)?;
+        let input = self.sockets.get(wire.to.processor.as_str())?.input(wire)?;
         Some(((node_id(&wire.from.processor), output), (node_id(&wire.to.processor), input)))
     }
 
@@ -328,10 +329,10 @@ impl<'a> Scene<'a> {
 
     fn loose_wire(&self, ui: &Ui) {
         let (Some(drag), Some(pointer)) = (self.drag, ui.input(|input| input.pointer.latest_pos())) else { return };
-        let Some(start) = self.geometry.sockets.get(&drag.anchor).copied() else { return };
+        let Some(start) = self.geometry.place(&drag.anchor) else { return };
         let loose = self.geometry.to_window.inverse() * pointer;
         let (end, color) = match self.target {
-            Some(Target::Connect(end)) => (self.place(end).unwrap_or(loose), theme::READY),
+            Some(Target::Connect(end)) => (self.geometry.place(end).unwrap_or(loose), theme::READY),
             Some(Target::Refuse(..)) => (loose, theme::ERROR),
             _ => (loose, color(drag.anchor.types(self.session.network()).first().copied())),
         };
@@ -342,10 +343,6 @@ impl<'a> Scene<'a> {
         let points: Vec<Pos2> = path.flatten(5.0).collect();
         ui.painter().add(Shape::line(points, Stroke::new(3.0, color)));
         ui.painter().circle_filled(end, 4.0, color);
-    }
-
-    fn place(&self, end: &End) -> Option<Pos2> {
-        self.geometry.sockets.get(end).copied()
     }
 
     /// Says how to begin where there is nothing.
@@ -369,15 +366,12 @@ fn color(port_type: Option<PortType>) -> Color32 {
     port_type.map_or(UNKNOWN, theme::port_color)
 }
 
-/// The ports of a processor; those of a placeholder as its connections name them.
-fn ports<'a>(network: &'a Network, processor: &'a Processor) -> Ports<'a> {
-    if let Some(declaration) = processor.declaration() {
-        return Ports {
-            inports: declaration.inports.iter().map(|port| port.id.as_str()).collect(),
-            outports: declaration.outports.iter().map(|port| port.id.as_str()).collect(),
-        };
+/// The connections by the inport where they end, in the order in which the processor sees them.
+fn fed(connections: &[Connection]) -> BTreeMap<&Address, Vec<&Connection>> {
+    let mut fed: BTreeMap<&Address, Vec<&Connection>> = BTreeMap::new();
+    for wire in connections {
+        fed.entry(&wire.to).or_default().push(wire);
     }
-    let inports: BTreeSet<&str> = network.inputs(processor.id()).map(|wire| wire.to.item.as_str()).collect();
-    let outports: BTreeSet<&str> = network.outputs(processor.id()).map(|wire| wire.from.item.as_str()).collect();
-    Ports { inports: inports.into_iter().collect(), outports: outports.into_iter().collect() }
+    fed.values_mut().for_each(|wires| wires.sort());
+    fed
 }

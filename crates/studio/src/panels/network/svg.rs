@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use egui::{Color32, Context, Id, Pos2, Rect};
 
 use super::geometry::Geometry;
+use super::socket::Socket;
 use crate::dialogs::{Dialogs, Question};
 use crate::session::{Session, Severity};
 use crate::theme;
@@ -95,7 +96,7 @@ fn nodes(svg: &mut String, session: &Session, geometry: &Geometry) {
 }
 
 fn sockets(svg: &mut String, session: &Session, geometry: &Geometry) {
-    for (end, place) in &geometry.sockets {
+    for (Socket { end, wire }, place) in &geometry.sockets {
         let address = end.address();
         let declaration = session.network().processor(&address.processor).and_then(|processor| processor.declaration());
         let (anchor, shift, label) = match end {
@@ -108,7 +109,13 @@ fn sockets(svg: &mut String, session: &Session, geometry: &Geometry) {
         };
         let (x, y, color) = (place.x, place.y, port_color(session, end));
         line(svg, &format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\" fill=\"{color}\"/>"));
-        let label = label.map_or(address.item.as_str(), String::as_str);
+        let label = match wire {
+            Some(wire) => {
+                let source = session.network().processor(&wire.from.processor);
+                source.and_then(|source| source.label()).unwrap_or(&wire.from.processor)
+            }
+            None => label.map_or(address.item.as_str(), String::as_str),
+        };
         text(svg, Pos2::new(x + shift, y + 3.5), anchor, PORT, "#a8adb4", label);
     }
 }
