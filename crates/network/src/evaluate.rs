@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;
 
-use crate::job::{Backend, Input, Inputs, Job, Outputs, ProcessError};
+use crate::job::{Backend, Input, Inputs, Job, Outputs, ProcessError, Unfinished};
 use crate::names::{Address, quoted};
 use crate::network::{Connection, Network, Processor};
 use crate::plan::Plan;
@@ -34,6 +34,14 @@ struct Memory<D> {
     data: BTreeMap<String, D>,
     revision: u64,
     run: Run,
+    unfinished: Option<Unfinished>,
+}
+
+/// What came of a run.
+struct Made<D> {
+    run: Run,
+    data: BTreeMap<String, D>,
+    unfinished: Option<Unfinished>,
 }
 
 /// How a processor came out of the last evaluation that needed it.
@@ -83,6 +91,19 @@ impl<B: Backend> Evaluator<B> {
         report.stale = self.outdated(network, &plan);
         report.needed = plan.order;
         report.elapsed = start.elapsed();
+        report
+    }
+
+    /// As [`Evaluator::evaluate`], and goes on until nothing is unfinished, for whoever needs the final result. The report tells
+    /// of all runs.
+    pub fn finish(&mut self, network: &Network, backend: &mut B, request: &Request) -> Report {
+        let mut report = self.evaluate(network, backend, request);
+        while !report.unfinished.is_empty() && !report.interrupted {
+            let Report { mut runs, elapsed, .. } = report;
+            let next = self.evaluate(network, backend, request);
+            runs.extend(next.runs);
+            report = Report { runs, elapsed: elapsed + next.elapsed, ..next };
+        }
         report
     }
 
@@ -176,13 +197,14 @@ impl<B: Backend> Evaluator<B> {
                 level,
                 reasons: &reasons,
             };
-            let (run, data) = run(backend, &job);
-            if matches!(run.outcome, Outcome::Failed(_)) && backend.interrupted() {
-                self.ask_again(run);
+            let before = self.memories.get(id).and_then(|memory| memory.unfinished.as_ref()).filter(|_| job.refines());
+            let made = run(backend, &job, before);
+            if matches!(made.run.outcome, Outcome::Failed(_)) && backend.interrupted() {
+                self.ask_again(made.run);
                 return None;
             }
-            report.runs.push(run.clone());
-            self.remember(processor, signature, run, data);
+            report.runs.push(made.run.clone());
+            self.remember(processor, signature, made);
         }
         Some(match self.error(id) {
             Some(_) => Standing::Failed,
@@ -204,6 +226,10 @@ impl<B: Backend> Evaluator<B> {
             Some(memory) => diff(id, &memory.signature, signature, decls),
             None => vec![(Level::Ports, Reason::FirstRun)],
         };
+        let unfinished = self.memories.get(id).is_some_and(|memory| memory.unfinished.is_some());
+        if unfinished && reasons.is_empty() {
+            reasons.push((Level::Result, Reason::Refines));
+        }
         if let Some((level, asked)) = self.asked.remove(id) {
             reasons.extend(asked.into_iter().map(|reason| (level, reason)));
         }
@@ -211,10 +237,11 @@ impl<B: Backend> Evaluator<B> {
         Some((level, reasons.into_iter().map(|(_, reason)| reason).collect()))
     }
 
-    fn remember(&mut self, processor: &Processor, signature: Signature, run: Run, data: BTreeMap<String, B::Data>) {
+    fn remember(&mut self, processor: &Processor, signature: Signature, made: Made<B::Data>) {
         self.revision += 1;
         let (type_id, revision) = (processor.type_id().to_owned(), self.revision);
-        let memory = Memory { type_id, signature, data, revision, run };
+        let Made { run, data, unfinished } = made;
+        let memory = Memory { type_id, signature, data, revision, run, unfinished };
         self.memories.insert(processor.id().to_owned(), memory);
     }
 
@@ -240,7 +267,7 @@ impl<B: Backend> Evaluator<B> {
         if complete { Ok(inputs) } else { Err(blocked) }
     }
 
-    /// Fills in what is not ready, with chains down to the causes, and what failed.
+    /// Fills in what is not ready, with chains down to the causes, what failed and what is unfinished.
     fn conclude(&self, network: &Network, plan: &Plan, report: &mut Report) {
         let causes = |id: &str| match self.standings.get(id) {
             Some(Standing::NotReady(causes)) => causes.clone(),
@@ -255,7 +282,11 @@ impl<B: Backend> Evaluator<B> {
                     report.not_ready.insert(id.clone(), chains.remove(id.as_str()).unwrap_or_default());
                 }
                 Some(Standing::Failed) => report.failed.extend(self.error(id).map(|error| (id.clone(), error.clone()))),
-                _ => {}
+                Some(Standing::Current) => {
+                    let unfinished = self.memories.get(id).and_then(|memory| memory.unfinished.clone());
+                    report.unfinished.extend(unfinished.map(|unfinished| (id.clone(), unfinished)));
+                }
+                None => {}
             }
         }
     }
@@ -275,7 +306,7 @@ impl<B: Backend> Evaluator<B> {
                 feeding.entry(to.item.clone()).or_default().push((from.clone(), revision));
             }
             let changed = memory.signature.inputs != feeding || memory.signature.properties != processor.resolve().1;
-            if follows || changed || self.asked.contains_key(id) {
+            if follows || changed || memory.unfinished.is_some() || self.asked.contains_key(id) {
                 outdated.insert(id.to_owned());
             }
         }
@@ -311,22 +342,35 @@ fn sources<D>(inputs: &Inputs<D>) -> BTreeMap<String, Vec<(Address, u64)>> {
     inputs.iter().map(|(inport, inputs)| (inport.clone(), inputs.iter().map(source).collect())).collect()
 }
 
-/// Runs a job, takes its time and checks what comes out.
-fn run<B: Backend>(backend: &mut B, job: &Job<'_, B::Data>) -> (Run, BTreeMap<String, B::Data>) {
+/// Runs a job, takes its time and checks what comes out. `before` is how far the run had come that this one goes on from.
+fn run<B: Backend>(backend: &mut B, job: &Job<'_, B::Data>, before: Option<&Unfinished>) -> Made<B::Data> {
     let start = Instant::now();
     let result = backend.process(job);
     let cpu = start.elapsed();
     let checked = result.and_then(|outputs| {
         check_outputs(backend, job.processor_type.declaration(), job.wanted, &outputs)?;
+        check_share(outputs.unfinished.as_ref(), before)?;
         Ok(outputs)
     });
     let (outcome, outputs) = match checked {
         Ok(outputs) => (Outcome::Done, outputs),
         Err(error) => (Outcome::Failed(error), Outputs::new()),
     };
-    let Outputs { data, gpu_time, notes, statistics } = outputs;
+    let Outputs { data, gpu_time, notes, statistics, unfinished } = outputs;
     let (processor, reasons) = (job.id.to_owned(), job.reasons.to_vec());
-    (Run { processor, reasons, level: job.level, cpu, gpu: gpu_time, outcome, notes, statistics }, data)
+    let run = Run { processor, reasons, level: job.level, cpu, gpu: gpu_time, outcome, notes, statistics };
+    Made { run, data, unfinished }
+}
+
+/// Who goes on must come to an end: the share that is done is below 1 and grows with every run.
+fn check_share(now: Option<&Unfinished>, before: Option<&Unfinished>) -> Result<(), ProcessError> {
+    let Some(share) = now.map(|unfinished| unfinished.share) else { return Ok(()) };
+    let past = before.map(|unfinished| unfinished.share);
+    if (0.0..1.0).contains(&share) && past.is_none_or(|past| past < share) {
+        return Ok(());
+    }
+    let past = past.map(|past| format!(" after {past}")).unwrap_or_default();
+    Err(ProcessError::new(format!("it says that {share} of its work is done{past}, which comes to no end")))
 }
 
 /// Everything wanted must be there, and nothing that was not declared or is of another type.

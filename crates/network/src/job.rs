@@ -81,10 +81,24 @@ impl<D> Job<'_, D> {
         self.inputs.get(inport).map_or(&[], Vec::as_slice)
     }
 
+    /// Whether nothing changed since the last run, whose result was [`Unfinished`]: the processor may go on from there.
+    pub fn refines(&self) -> bool {
+        self.reasons == [Reason::Refines]
+    }
+
     /// Whether something consumes this outport.
     pub fn wants(&self, outport: &str) -> bool {
         self.wanted.contains(outport)
     }
+}
+
+/// Says that what a run gave is a first result, and that another run goes on from there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unfinished {
+    /// How much of the work is done: at least 0, below 1, and more after every run.
+    pub share: f64,
+    /// What the result is and what is still to come, a sentence for the user.
+    pub message: String,
 }
 
 /// What a run gives.
@@ -98,11 +112,19 @@ pub struct Outputs<D> {
     pub notes: Vec<String>,
     /// Numbers for tests and tools ("samples").
     pub statistics: serde_json::Map<String, Json>,
+    /// Whether the data is a first result only. What it feeds runs with it, and the next evaluation goes on.
+    pub unfinished: Option<Unfinished>,
 }
 
 impl<D> Default for Outputs<D> {
     fn default() -> Self {
-        Self { data: BTreeMap::new(), gpu_time: None, notes: Vec::new(), statistics: serde_json::Map::new() }
+        Self {
+            data: BTreeMap::new(),
+            gpu_time: None,
+            notes: Vec::new(),
+            statistics: serde_json::Map::new(),
+            unfinished: None,
+        }
     }
 }
 

@@ -37,7 +37,7 @@ pub use edit::EditError;
 pub use evaluate::Evaluator;
 pub use file::{LoadError, Loaded, SaveError, VERSION, Warning};
 pub use frame::Frame;
-pub use job::{Backend, Input, Inputs, Job, Mark, Outputs, ProcessError};
+pub use job::{Backend, Input, Inputs, Job, Mark, Outputs, ProcessError, Unfinished};
 pub use json::ValueError;
 pub use light::{Light, LightError, LightSpace};
 pub use link::{Link, LinkRefusal};

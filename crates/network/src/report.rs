@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use serde_json::Value as Json;
 
-use crate::job::ProcessError;
+use crate::job::{ProcessError, Unfinished};
 use crate::names::Address;
 use crate::property::Level;
 
@@ -60,6 +60,8 @@ pub enum Reason {
     Output(String),
     /// The render size is another.
     Size([u32; 2]),
+    /// Its last result was a first one ([`Unfinished`]), and it goes on.
+    Refines,
     /// Someone asked for it ([`crate::Evaluator::invalidate`]).
     Asked(String),
 }
@@ -80,6 +82,7 @@ impl fmt::Display for Reason {
             }
             Self::Output(outport) => write!(f, "output `{outport}` is now used"),
             Self::Size([width, height]) => write!(f, "size changed to {width}x{height}"),
+            Self::Refines => f.write_str("refines its first result"),
             Self::Asked(why) => f.write_str(why),
         }
     }
@@ -135,6 +138,8 @@ pub struct Report {
     pub not_ready: BTreeMap<String, Vec<String>>,
     /// Processors that were needed and failed, now or at an earlier evaluation with the same inputs and properties.
     pub failed: BTreeMap<String, ProcessError>,
+    /// Processors that were needed and whose result is a first one: another evaluation goes on ([`crate::Evaluator::finish`]).
+    pub unfinished: BTreeMap<String, Unfinished>,
     /// Whether the evaluation was interrupted ([`crate::Backend::interrupted`]), so that some of what was needed did not run.
     pub interrupted: bool,
     /// Time for the whole evaluation.
@@ -142,9 +147,9 @@ pub struct Report {
 }
 
 impl Report {
-    /// Whether everything that was needed has its result.
+    /// Whether everything that was needed has its final result.
     pub fn is_complete(&self) -> bool {
-        self.not_ready.is_empty() && self.failed.is_empty() && !self.interrupted
+        self.not_ready.is_empty() && self.failed.is_empty() && self.unfinished.is_empty() && !self.interrupted
     }
 
     /// Ids of the processors that ran, in order.

@@ -67,7 +67,7 @@ impl Runner {
         Ok(Self { context: Context::new(gpu)?, processes })
     }
 
-    /// Evaluates a network, again and on a new device if the device is lost meanwhile or was before. What had been computed is
+    /// Evaluates a network to the end, again and on a new device if the device is lost meanwhile or was before. What had been computed is
     /// computed again then, for it was on the old device; a note on the first run says so.
     ///
     /// # Errors
@@ -79,10 +79,10 @@ impl Runner {
         request: &Request,
     ) -> Result<Report, GpuError> {
         let mut is_new = self.replace_lost(evaluator)?;
-        let mut report = evaluator.evaluate(network, self, request);
+        let mut report = evaluator.finish(network, self, request);
         if self.replace_lost(evaluator)? {
             is_new = true;
-            report = evaluator.evaluate(network, self, request);
+            report = evaluator.finish(network, self, request);
         }
         if let Some(first) = report.runs.first_mut().filter(|_| is_new) {
             first.notes.push("the graphics device was lost; everything was computed again on a new one".to_owned());

@@ -381,3 +381,62 @@ fn an_interrupted_evaluation_keeps_what_ran_and_goes_on_where_it_was() {
     assert!(report.runs[0].why().contains("the disk changed"), "{}", report.runs[0].why());
     assert!(report.is_complete() && bench.evaluate().runs.is_empty());
 }
+
+#[test]
+fn a_first_result_is_passed_on_and_refined_by_further_evaluations() {
+    let mut bench = Bench::new(pipeline());
+    bench.backend.steps = [("view".to_owned(), 3)].into();
+    let first = bench.evaluate();
+    assert_eq!(first.ran(), ["data", "proxy", "view", "filter", "canvas"]);
+    let expected = Unfinished { share: 1.0 / 3.0, message: "step 1 of 3".into() };
+    assert_eq!(first.unfinished, [("view".to_owned(), expected)].into());
+    assert!(!first.is_complete() && bench.evaluator.output("filter", "image_out").is_some());
+    let second = bench.evaluate();
+    insta::assert_snapshot!(log(&second), @r"
+    view [result]: refines its first result
+    filter [result]: input `image` changed (view ran)
+    canvas [result]: input `image` changed (filter ran)
+    ");
+    assert_eq!(second.unfinished["view"].message, "step 2 of 3");
+    // A change begins anew.
+    bench.set("view", "rate", Value::Float(2.0));
+    let third = bench.evaluate();
+    assert!(third.runs[0].why().contains("view.rate changed") && !third.runs[0].why().contains("refines"));
+    assert_eq!(third.unfinished["view"].message, "step 1 of 3");
+    // What nothing needs is not refined, and is told to be outdated.
+    let elsewhere = Request { sinks: Sinks::Only(Vec::new()), ..Request::default() };
+    let report = bench.with(&elsewhere);
+    assert!(report.runs.is_empty() && report.unfinished.is_empty() && report.stale.contains("view"), "{report:?}");
+    let last = bench.evaluator.finish(&bench.network, &mut bench.backend, &Request::default());
+    assert_eq!(last.ran(), ["view", "filter", "canvas", "view", "filter", "canvas"]);
+    assert!(last.is_complete() && bench.evaluate().runs.is_empty());
+}
+
+#[test]
+fn finishing_waits_for_every_one_that_refines() {
+    let mut bench = Bench::new(pipeline());
+    bench.backend.steps = [("data".to_owned(), 2), ("view".to_owned(), 3)].into();
+    let report = bench.evaluator.finish(&bench.network, &mut bench.backend, &Request::default());
+    assert!(report.is_complete());
+    // The view begins anew with the final data.
+    assert_eq!((bench.backend.runs["data"], bench.backend.runs["view"]), (2, 4));
+    assert_eq!(report.runs.len(), 2 + 2 + 4 + 4 + 4);
+}
+
+#[test]
+fn an_interrupted_refinement_is_made_up_for_and_one_without_progress_fails() {
+    let mut bench = Bench::new(pipeline());
+    bench.backend.steps = [("view".to_owned(), 2)].into();
+    bench.evaluate();
+    bench.backend.interrupt = Some("view".into());
+    let report = bench.evaluator.finish(&bench.network, &mut bench.backend, &Request::default());
+    assert!(report.interrupted && report.runs.is_empty());
+    (bench.backend.interrupt, bench.backend.interrupted) = (None, false);
+    assert_eq!(bench.evaluate().ran(), ["view", "filter", "canvas"]);
+    assert!(bench.evaluate().is_complete());
+
+    bench.backend.stuck = true;
+    bench.set("view", "rate", Value::Float(3.0));
+    let report = bench.evaluator.finish(&bench.network, &mut bench.backend, &Request::default());
+    insta::assert_snapshot!(report.failed["view"], @"it says that 0.5 of its work is done after 0.5, which comes to no end");
+}

@@ -142,6 +142,11 @@ pub struct Counter {
     /// What fed each processor in its last run, as connections.
     pub fed: BTreeMap<String, Vec<String>>,
     pub silent: bool,
+    /// Processors that come to their result in so many runs.
+    pub steps: BTreeMap<String, usize>,
+    done: BTreeMap<String, usize>,
+    /// Whether those never get further than their first step.
+    pub stuck: bool,
     /// The processor during whose run the evaluation is interrupted.
     pub interrupt: Option<String>,
     pub interrupted: bool,
@@ -172,6 +177,7 @@ impl Backend for Counter {
             return Err(ProcessError::new(message));
         }
         let mut outputs = Outputs::new();
+        outputs.unfinished = self.unfinished(job);
         for outport in job.wanted.iter().filter(|_| !self.silent) {
             let declaration = job.processor_type.declaration();
             let port_type = declaration.outport(outport).expect("only declared outports are wanted").port_type;
@@ -181,6 +187,17 @@ impl Backend for Counter {
             outputs = outputs.with(outport, Made { facts, how });
         }
         Ok(outputs)
+    }
+}
+
+impl Counter {
+    /// How far a processor of several steps is after this run: the first unless it goes on.
+    fn unfinished(&mut self, job: &Job<'_, Made>) -> Option<Unfinished> {
+        let steps = *self.steps.get(job.id)?;
+        let done = self.done.entry(job.id.to_owned()).or_default();
+        *done = if job.refines() && !self.stuck { *done + 1 } else { 1 };
+        let share = *done as f64 / steps as f64;
+        (*done < steps).then(|| Unfinished { share, message: format!("step {done} of {steps}") })
     }
 }
 

@@ -50,7 +50,7 @@ pub fn render(network: &Network, runner: &mut Runner, file: Option<&Path>) -> Op
         ..Request::default()
     };
     let mut evaluator = Evaluator::new();
-    evaluator.evaluate(network, runner, &request);
+    evaluator.finish(network, runner, &request);
     let mut whole = Picture { size: SIZE, pixels: vec![[0.0; 4]; (SIZE[0] * SIZE[1]) as usize], depth: None };
     for (index, canvas) in (0..).zip(&canvases) {
         let Some(Data::Image(shown)) = evaluator.inputs(network, canvas, "image").next() else { return None };
