@@ -177,7 +177,11 @@ impl Studio {
             let engine = &self.session.engine;
             let report = &engine.results.report;
             let failed = report.failed.len();
-            if engine.is_busy() {
+            if let Some((id, unfinished)) = engine.refining() {
+                ui.spinner();
+                let percent = (100.0 * unfinished.share).floor();
+                ui.label(format!("refining {id}: {percent} %")).on_hover_text(&unfinished.message);
+            } else if engine.is_busy() {
                 ui.spinner();
                 if let Some((id, progress)) = engine.progress.iter().next() {
                     ui.label(format!("{id}: {} %", 100 * progress.done / progress.total.max(1)));

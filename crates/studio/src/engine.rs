@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 use rayloom_gpu::{Gpu, GpuError};
 use rayloom_network::{
     Address, Backend, Evaluator, Facts, Job, Level, Network, Outputs, ProcessError, Report, Request, Run, Sinks,
+    Unfinished,
 };
 use rayloom_processors::{Data, Image, Picture, Process, Runner, Trace, snippet_revision, types};
 use rayloom_volume::Progress;
@@ -27,12 +28,32 @@ struct Hurry {
     newest: AtomicU64,
     /// Number of the order that is at work and has time; 0 if there is none.
     patient: AtomicU64,
+    /// Number of the last order.
+    last: AtomicU64,
+    /// Number of the order whose first picture is being refined; 0 if there is none. Any newer one ends that.
+    refining: AtomicU64,
 }
 
 impl Hurry {
     fn interrupts(&self) -> bool {
-        let patient = self.patient.load(Ordering::Relaxed);
-        patient > 0 && self.newest.load(Ordering::Relaxed) > patient
+        let ends = |newest: &AtomicU64, at_work: &AtomicU64| {
+            let at_work = at_work.load(Ordering::Relaxed);
+            at_work > 0 && newest.load(Ordering::Relaxed) > at_work
+        };
+        ends(&self.newest, &self.patient) || ends(&self.last, &self.refining)
+    }
+
+    /// Something is at work from now on.
+    fn begin(&self, order: &Order) {
+        let patient = if order.in_a_hurry { 0 } else { order.number };
+        self.patient.store(patient, Ordering::Relaxed);
+        self.refining.store(if order.refines { order.number } else { 0 }, Ordering::Relaxed);
+    }
+
+    /// Nothing is at work any more.
+    fn end(&self) {
+        self.patient.store(0, Ordering::Relaxed);
+        self.refining.store(0, Ordering::Relaxed);
     }
 }
 
@@ -43,6 +64,8 @@ struct Order {
     ray: Option<Ray>,
     number: u64,
     in_a_hurry: bool,
+    /// Whether its first results are there and are to be refined.
+    refines: bool,
     /// Processors to run although nothing that the network knows of changed, and why.
     refresh: Vec<(String, String)>,
 }
@@ -209,9 +232,11 @@ impl Engine {
             ray: ray.clone(),
             number: self.ordered,
             in_a_hurry,
+            refines: false,
             refresh: std::mem::take(&mut self.refresh),
         };
         self.last = Some((revision, request, ray));
+        self.hurry.last.store(self.ordered, Ordering::Relaxed);
         if in_a_hurry {
             self.hurry.newest.store(self.ordered, Ordering::Relaxed);
         }
@@ -266,7 +291,13 @@ impl Engine {
 
     /// Whether something is still to be computed.
     pub fn is_busy(&self) -> bool {
-        self.results.number < self.ordered
+        self.results.number < self.ordered || !self.results.report.unfinished.is_empty()
+    }
+
+    /// What is being refined, and how far that is, while nothing newer was ordered.
+    pub fn refining(&self) -> Option<(&str, &Unfinished)> {
+        let (id, unfinished) = self.results.report.unfinished.iter().next()?;
+        (self.results.number == self.ordered).then_some((id, unfinished))
     }
 }
 
@@ -274,6 +305,7 @@ impl Drop for Engine {
     fn drop(&mut self) {
         // Whatever is at work need not be finished.
         self.hurry.newest.store(u64::MAX, Ordering::Relaxed);
+        self.hurry.last.store(u64::MAX, Ordering::Relaxed);
         // A thread that has ended needs not to be told.
         let _ = self.tasks.send(Task::Stop);
         if let Some(thread) = self.thread.take() {
@@ -351,13 +383,20 @@ fn work(mut backend: Telling, tasks: &Receiver<Task>, wake: &impl Fn()) {
                         other => waiting.push_back(other),
                     }
                 }
-                let patient = if order.in_a_hurry { 0 } else { order.number };
-                backend.hurry.patient.store(patient, Ordering::Relaxed);
-                let results = Box::new(evaluate(*order, &mut snippets, &mut evaluator, &mut backend));
-                backend.hurry.patient.store(0, Ordering::Relaxed);
+                backend.hurry.begin(&order);
+                let results = Box::new(evaluate(&mut order, &mut snippets, &mut evaluator, &mut backend));
+                backend.hurry.end();
+                let interrupted = results.report.interrupted;
+                order.refines = !results.report.unfinished.is_empty();
                 // What interrupted it is the next order.
-                if !results.report.interrupted && backend.news.send(News::Results(results)).is_err() {
+                if !interrupted && backend.news.send(News::Results(results)).is_err() {
                     return;
+                }
+                waiting.extend(tasks.try_iter());
+                // Whoever orders something newer waits for that.
+                let replaced = waiting.iter().any(|task| matches!(task, Task::Evaluate(_) | Task::Stop));
+                if order.refines && !interrupted && !replaced {
+                    waiting.push_back(Task::Evaluate(order));
                 }
             }
         }
@@ -387,7 +426,7 @@ fn follow(runner: &mut Runner, outputs: &BTreeMap<Address, Data>, ray: &Ray) -> 
 }
 
 fn evaluate(
-    mut order: Order,
+    order: &mut Order,
     snippets: &mut u64,
     evaluator: &mut Evaluator<Telling>,
     backend: &mut Telling,
@@ -403,7 +442,7 @@ fn evaluate(
     }
     let report = evaluator.evaluate(&order.network, backend, &order.request);
     backend.runner.tidy(|id| order.network.processor(id).is_some());
-    let mut results = collect(&order, report, evaluator);
+    let mut results = collect(order, report, evaluator);
     results.shaders = shaders(&order.network, &mut backend.runner);
     results.trace = order.ray.as_ref().map(|ray| Arc::new(follow(&mut backend.runner, &results.outputs, ray)));
     results
@@ -413,7 +452,7 @@ fn evaluate(
 fn shoot(shot: &Shot, evaluator: &mut Evaluator<Telling>, backend: &mut Telling) -> Result<Picture, String> {
     let Shot { network, canvas, size, .. } = shot;
     let sinks = Sinks::Only(vec![canvas.clone()]);
-    let report = evaluator.evaluate(network, backend, &Request { sinks, size: Some(*size), ..Request::default() });
+    let report = evaluator.finish(network, backend, &Request { sinks, size: Some(*size), ..Request::default() });
     match evaluator.inputs(network, canvas, "image").next() {
         Some(Data::Image(image)) => image.read_back(&backend.runner.context).map_err(|error| error.to_string()),
         _ => {

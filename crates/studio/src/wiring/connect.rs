@@ -88,7 +88,7 @@ pub fn verdict(network: &Network, one: &End, other: &End) -> Result<(), String> 
 }
 
 /// Whether data flows from one processor to another.
-fn feeds(network: &Network, from: &str, to: &str) -> bool {
+pub fn feeds(network: &Network, from: &str, to: &str) -> bool {
     let mut seen = std::collections::BTreeSet::from([from]);
     let mut stack = vec![from];
     while let Some(id) = stack.pop() {

@@ -8,7 +8,7 @@ mod remove;
 mod rename;
 
 pub use add::{add, add_connected, fits_into, insert, replace};
-pub use connect::{End, connect, fitting, re_plug, verdict};
+pub use connect::{End, connect, feeds, fitting, re_plug, verdict};
 pub use copy::{copy, duplicate, paste};
 pub use link::followers;
 pub use remove::{remove, remove_and_reconnect};

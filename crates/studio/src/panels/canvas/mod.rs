@@ -17,6 +17,7 @@ use super::probe;
 use crate::display::Look;
 use crate::inspect::image::paint;
 use crate::session::Session;
+use crate::wiring::feeds;
 use camera::Held;
 
 /// What keys and the pointer do, for the list of keys.
@@ -97,6 +98,14 @@ impl CanvasPanel {
             }
             Some(Behind::Slice(processor)) => slice::interact(ui, &response, shown, session, &processor),
             None => {}
+        }
+        if let Some((id, unfinished)) = session.engine.refining()
+            && feeds(session.network(), id, canvas)
+        {
+            let at = shown.left_top() + Vec2::splat(8.0);
+            let text = format!("refining, {:.0} %", (100.0 * unfinished.share).floor());
+            let color = Color32::from_white_alpha(180);
+            ui.painter().text(at, Align2::LEFT_TOP, text, FontId::proportional(12.0), color);
         }
         if let Some(hint) = self.camera.hint() {
             let at = shown.center_bottom() - Vec2::new(0.0, 16.0);
