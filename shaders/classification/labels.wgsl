@@ -8,7 +8,7 @@
 fn classify(s: Sample) -> vec4f {
     let size = vec3i(textureDimensions(label_volume));
     let voxel = clamp(vec3i(floor(s.position * vec3f(size))), vec3i(0), size - 1);
-    let label = i32(round(frame.label_minimum + frame.label_span * textureLoad(label_volume, voxel, 0).x));
+    let label = i32(round(source.label_minimum + source.label_span * textureLoad(label_volume, voxel, 0).x));
     let rows = i32(textureDimensions(label_table).y);
     // The last row, behind those of all labels, is transparent.
     let row = select(rows - 1, min(label, rows - 1), label >= 0);

@@ -7,5 +7,5 @@
 #include "classification/table.wgsl"
 
 fn classify(s: Sample) -> vec4f {
-    return table_lookup_2d(transfer_table_2d, vec2f(s.value, length(s.gradient) * frame.gradient_scale));
+    return table_lookup_2d(transfer_table_2d, vec2f(s.value, length(s.gradient) * source.gradient_scale));
 }

@@ -8,7 +8,7 @@
 
 struct State {
     value: f32,
-    along: f32,
+    distance: f32,
     sum: f32,
 }
 
@@ -22,7 +22,7 @@ fn add(state: ptr<function, State>, ray: Ray, s: Sample) {
     let dimmed = s.value * exp(-params.attenuation * max(depth, 0.0));
     if dimmed > (*state).value {
         (*state).value = dimmed;
-        (*state).along = s.along;
+        (*state).distance = s.distance;
     }
     (*state).sum += s.value * s.length;
 }
@@ -32,8 +32,8 @@ fn done(state: State) -> bool {
 }
 
 fn finish(state: State, ray: Ray) -> Result {
-    if state.along < 0.0 {
+    if state.distance < 0.0 {
         return Result(vec4f(0.0), -1.0);
     }
-    return Result(absorb(classify_value(state.value), 1.0), state.along);
+    return Result(absorb(classify_value(state.value), 1.0), state.distance);
 }

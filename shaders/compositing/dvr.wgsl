@@ -31,7 +31,7 @@ fn add(state: ptr<function, State>, ray: Ray, s: Sample) {
 #else
     (*state).color = color + (1.0 - color.w) * absorb(s.medium, s.length);
 #endif
-    (*state).first = select((*state).first, s.along, (*state).first < 0.0 && s.medium.w > 0.0);
+    (*state).first = select((*state).first, s.distance, (*state).first < 0.0 && s.medium.w > 0.0);
 }
 
 fn done(state: State) -> bool {

@@ -7,7 +7,7 @@
 //! forbids: classification reads previous -- a hit is a point, not a segment
 
 struct State {
-    along: f32,
+    distance: f32,
     gradient: vec3f,
 }
 
@@ -16,18 +16,18 @@ fn begin() -> State {
 }
 
 fn add(state: ptr<function, State>, ray: Ray, s: Sample) {
-    if (*state).along < 0.0 && s.medium.w > 0.0 {
-        *state = State(s.along, s.gradient);
+    if (*state).distance < 0.0 && s.medium.w > 0.0 {
+        *state = State(s.distance, s.gradient);
     }
 }
 
 fn done(state: State) -> bool {
-    return state.along >= 0.0;
+    return state.distance >= 0.0;
 }
 
 fn finish(state: State, ray: Ray) -> Result {
-    if state.along < 0.0 {
+    if state.distance < 0.0 {
         return Result(vec4f(0.0), -1.0);
     }
-    return Result(vec4f(0.5 - 0.5 * state.gradient / max(length(state.gradient), 1e-20), 1.0), state.along);
+    return Result(vec4f(0.5 - 0.5 * state.gradient / max(length(state.gradient), 1e-20), 1.0), state.distance);
 }

@@ -7,7 +7,7 @@
 //! forbids: classification reads previous -- a hit is a point, not a segment
 
 struct State {
-    along: f32,
+    distance: f32,
 }
 
 fn begin() -> State {
@@ -15,18 +15,18 @@ fn begin() -> State {
 }
 
 fn add(state: ptr<function, State>, ray: Ray, s: Sample) {
-    if (*state).along < 0.0 && s.medium.w > 0.0 {
-        *state = State(s.along);
+    if (*state).distance < 0.0 && s.medium.w > 0.0 {
+        *state = State(s.distance);
     }
 }
 
 fn done(state: State) -> bool {
-    return state.along >= 0.0;
+    return state.distance >= 0.0;
 }
 
 fn finish(state: State, ray: Ray) -> Result {
-    if state.along < 0.0 {
+    if state.distance < 0.0 {
         return Result(vec4f(0.0), -1.0);
     }
-    return Result(vec4f(position_along(ray, state.along), 1.0), state.along);
+    return Result(vec4f(position_along(ray, state.distance), 1.0), state.distance);
 }

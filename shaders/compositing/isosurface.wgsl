@@ -1,6 +1,6 @@
 //! slot: compositing
 //! label: Isosurface
-//! help: The first surface on which the value is the isovalue, opaque. It is refined, shaded and coloured once, behind the loop. Depth: the surface.
+//! help: The first surface on which the value is the isovalue, opaque. It is refined, shaded and coloured once, after the loop. Depth: the surface.
 //! reads: previous, refinement, surface
 //! terminates: hit
 //! empty: no_crossing isovalue
@@ -25,7 +25,7 @@ fn add(state: ptr<function, State>, ray: Ray, s: Sample) {
     let fb = s.value - params.isovalue;
     // A value equal to the isovalue is inside: plateaus give one surface.
     if !(*state).found && (fa >= 0.0) != (fb >= 0.0) {
-        *state = State(true, s.previous_along, s.along, fa, fb);
+        *state = State(true, s.previous_distance, s.distance, fa, fb);
     }
 }
 
@@ -41,6 +41,6 @@ fn finish(state: State, ray: Ray) -> Result {
     if !last.found {
         return Result(vec4f(0.0), -1.0);
     }
-    let along = refine(ray, last.a, last.b, last.fa, last.fb, params.isovalue);
-    return Result(surface_at(ray, along, params.color), along);
+    let distance = refine(ray, last.a, last.b, last.fa, last.fb, params.isovalue);
+    return Result(surface_at(ray, distance, params.color), distance);
 }

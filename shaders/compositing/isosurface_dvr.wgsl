@@ -14,37 +14,37 @@ struct State {
     first: f32,
     /// Medium and place of the last sample; the stretch up to the next is their mean.
     medium: vec4f,
-    along: f32,
+    distance: f32,
 }
 
 fn begin() -> State {
     return State(vec4f(0.0), -1.0, vec4f(-1.0), 0.0);
 }
 
-fn blend(state: ptr<function, State>, color: vec4f, along: f32) {
+fn blend(state: ptr<function, State>, color: vec4f, distance: f32) {
     (*state).color += (1.0 - (*state).color.w) * color;
-    (*state).first = select((*state).first, along, (*state).first < 0.0 && color.w > 0.0);
+    (*state).first = select((*state).first, distance, (*state).first < 0.0 && color.w > 0.0);
 }
 
 fn add(state: ptr<function, State>, ray: Ray, s: Sample) {
     // Before the first sample the medium is taken to be that of the sample.
     let front = select((*state).medium, s.medium, (*state).medium.w < 0.0);
-    let start = (*state).along;
+    let start = select((*state).distance, ray.begin, (*state).medium.w < 0.0);
     let fa = s.previous - params.isovalue;
     let fb = s.value - params.isovalue;
-    var cut = s.along;
+    var cut = s.distance;
     let crossed = (fa >= 0.0) != (fb >= 0.0);
     if crossed {
-        cut = refine(ray, s.previous_along, s.along, fa, fb, params.isovalue);
+        cut = refine(ray, s.previous_distance, s.distance, fa, fb, params.isovalue);
     }
     let mean = 0.5 * (front + s.medium);
-    blend(state, absorb(mean, (cut - start) * ray.step_length), start);
+    blend(state, absorb(mean, (cut - start)), start);
     if crossed {
         blend(state, params.opacity * surface_at(ray, cut, params.color), cut);
-        blend(state, absorb(mean, (s.along - cut) * ray.step_length), cut);
+        blend(state, absorb(mean, (s.distance - cut)), cut);
     }
     (*state).medium = s.medium;
-    (*state).along = s.along;
+    (*state).distance = s.distance;
 }
 
 fn done(state: State) -> bool {

@@ -28,10 +28,10 @@ fn cross_surface(state: ptr<function, State>, ray: Ray, s: Sample, isovalue: f32
     let fa = s.previous - isovalue;
     let fb = s.value - isovalue;
     if opacity > 0.0 && (fa >= 0.0) != (fb >= 0.0) {
-        let along = refine(ray, s.previous_along, s.along, fa, fb, isovalue);
+        let distance = refine(ray, s.previous_distance, s.distance, fa, fb, isovalue);
         let behind = 1.0 - (*state).color.w;
-        (*state).color += behind * opacity * surface_at(ray, along, color);
-        (*state).first = select((*state).first, along, (*state).first < 0.0);
+        (*state).color += behind * opacity * surface_at(ray, distance, color);
+        (*state).first = select((*state).first, distance, (*state).first < 0.0);
     }
 }
 

@@ -6,7 +6,7 @@
 
 struct State {
     medium: vec4f,
-    along: f32,
+    distance: f32,
 }
 
 fn begin() -> State {
@@ -15,7 +15,7 @@ fn begin() -> State {
 
 fn add(state: ptr<function, State>, ray: Ray, s: Sample) {
     if s.medium.w > (*state).medium.w {
-        *state = State(s.medium, s.along);
+        *state = State(s.medium, s.distance);
     }
 }
 
@@ -24,5 +24,5 @@ fn done(state: State) -> bool {
 }
 
 fn finish(state: State, ray: Ray) -> Result {
-    return Result(absorb(state.medium, 1.0), state.along);
+    return Result(absorb(state.medium, 1.0), state.distance);
 }

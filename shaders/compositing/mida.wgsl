@@ -8,7 +8,7 @@
 struct State {
     color: vec4f,
     maximum: f32,
-    along: f32,
+    distance: f32,
 }
 
 fn begin() -> State {
@@ -20,9 +20,9 @@ fn add(state: ptr<function, State>, ray: Ray, s: Sample) {
     let keep = 1.0 - rise * (1.0 + min(params.gamma, 0.0));
     let color = keep * (*state).color;
     (*state).color = color + (1.0 - color.w) * absorb(s.medium, s.length);
-    if rise > 0.0 || (*state).along < 0.0 {
+    if rise > 0.0 || (*state).distance < 0.0 {
         (*state).maximum = max(s.value, (*state).maximum);
-        (*state).along = s.along;
+        (*state).distance = s.distance;
     }
 }
 
@@ -31,10 +31,10 @@ fn done(state: State) -> bool {
 }
 
 fn finish(state: State, ray: Ray) -> Result {
-    if state.along < 0.0 {
+    if state.distance < 0.0 {
         return Result(vec4f(0.0), -1.0);
     }
     // Two accumulators, mixed once: the mixture never feeds back into the accumulation.
-    let projection = absorb(medium_at(ray, state.along), 1.0);
-    return Result(mix(state.color, projection, max(params.gamma, 0.0)), state.along);
+    let projection = absorb(medium_at(ray, state.distance), 1.0);
+    return Result(mix(state.color, projection, max(params.gamma, 0.0)), state.distance);
 }

@@ -6,7 +6,7 @@
 
 struct State {
     value: f32,
-    along: f32,
+    distance: f32,
 }
 
 fn begin() -> State {
@@ -15,7 +15,7 @@ fn begin() -> State {
 
 fn add(state: ptr<function, State>, ray: Ray, s: Sample) {
     if s.value < (*state).value {
-        *state = State(s.value, s.along);
+        *state = State(s.value, s.distance);
     }
 }
 
@@ -24,8 +24,8 @@ fn done(state: State) -> bool {
 }
 
 fn finish(state: State, ray: Ray) -> Result {
-    if state.along < 0.0 {
+    if state.distance < 0.0 {
         return Result(vec4f(0.0), -1.0);
     }
-    return Result(absorb(medium_at(ray, state.along), 1.0), state.along);
+    return Result(absorb(medium_at(ray, state.distance), 1.0), state.distance);
 }

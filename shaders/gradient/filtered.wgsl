@@ -7,7 +7,7 @@
 // Written without loops: some drivers bound the loop rounds of an invocation, and a ray needs them for its samples.
 
 fn gradient_at(p: vec3f, voxel: vec4f) -> vec3f {
-    let h = 1.0 / frame.dims;
+    let h = 1.0 / source.dims;
     let below = p - h;
     let above = p + h;
     let corners = slopes(below, 1.0, 1.0)

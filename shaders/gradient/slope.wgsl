@@ -2,7 +2,7 @@
 /// Positions stay between the outermost voxel centres, and the difference is divided by the distance really covered,
 /// so that a linear field has the same slope at the border.
 fn slope(p: vec3f, axis: vec3f, back: f32, ahead: f32) -> f32 {
-    let size = dot(frame.dims, axis);
+    let size = dot(source.dims, axis);
     let x = clamp(dot(p, axis) * size, 0.5, size - 0.5);
     var low = max(x - back, 0.5);
     var high = min(x + ahead, size - 0.5);

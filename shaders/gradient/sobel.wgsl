@@ -6,9 +6,9 @@
 
 /// Three values along x: their smoothed value (x) and their difference (y).
 fn row(low: f32, x: vec3f, high: f32) -> vec2f {
-    let a = value_at(vec3f(low, x.yz) / frame.dims);
-    let b = value_at(x / frame.dims);
-    let c = value_at(vec3f(high, x.yz) / frame.dims);
+    let a = value_at(vec3f(low, x.yz) / source.dims);
+    let b = value_at(x / source.dims);
+    let c = value_at(vec3f(high, x.yz) / source.dims);
     return vec2f(0.25 * a + 0.5 * b + 0.25 * c, c - a);
 }
 
@@ -21,9 +21,9 @@ fn plane(low: vec3f, x: vec3f, high: vec3f) -> vec3f {
 }
 
 fn gradient_at(p: vec3f, voxel: vec4f) -> vec3f {
-    let x = clamp(p * frame.dims, vec3f(0.5), frame.dims - 0.5);
+    let x = clamp(p * source.dims, vec3f(0.5), source.dims - 0.5);
     let low = max(x - 1.0, vec3f(0.5));
-    let high = min(x + 1.0, frame.dims - 0.5);
+    let high = min(x + 1.0, source.dims - 0.5);
     let a = plane(low, vec3f(x.xy, low.z), high);
     let b = plane(low, x, high);
     let c = plane(low, vec3f(x.xy, high.z), high);

@@ -9,7 +9,7 @@
 
 fn sample_volume(p: vec3f) -> vec4f {
     // Beyond the outermost voxel centres the volume is constant.
-    let x = clamp(p * frame.dims - 0.5, vec3f(0.0), frame.dims - 1.0);
+    let x = clamp(p * source.dims - 0.5, vec3f(0.0), source.dims - 1.0);
     let t = x - floor(x);
     let u = 1.0 - t;
     let w0 = u * u * u / 6.0;

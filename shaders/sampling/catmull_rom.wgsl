@@ -7,7 +7,7 @@
 
 fn sample_volume(p: vec3f) -> vec4f {
     // Beyond the outermost voxel centres the volume is constant.
-    let x = clamp(p * frame.dims - 0.5, vec3f(0.0), frame.dims - 1.0);
+    let x = clamp(p * source.dims - 0.5, vec3f(0.0), source.dims - 1.0);
     let t = x - floor(x);
     let w0 = 0.5 * t * (t * (2.0 - t) - 1.0);
     let w1 = 0.5 * (t * t * (3.0 * t - 5.0) + 2.0);

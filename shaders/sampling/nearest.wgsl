@@ -5,5 +5,5 @@
 
 fn sample_volume(p: vec3f) -> vec4f {
     let last = vec3i(textureDimensions(volume)) - 1;
-    return textureLoad(volume, clamp(vec3i(floor(p * frame.dims)), vec3i(0), last), 0);
+    return textureLoad(volume, clamp(vec3i(floor(p * source.dims)), vec3i(0), last), 0);
 }

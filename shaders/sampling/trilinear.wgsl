@@ -4,7 +4,7 @@
 //! kernel: 0 1
 
 fn sample_volume(p: vec3f) -> vec4f {
-    let x = p * frame.dims - 0.5;
+    let x = p * source.dims - 0.5;
     let base = floor(x);
     let w = x - base;
     let last = vec3i(textureDimensions(volume)) - 1;

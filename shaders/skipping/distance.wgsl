@@ -4,12 +4,12 @@
 
 #include "skipping/leap.wgsl"
 
-fn skip_empty(ray: Ray, index: u32) -> u32 {
-    let p = position_along(ray, segment(ray, leap_base(index)).x);
+fn skip_empty(ray: Ray, index: f32) -> f32 {
+    let p = position_along(ray, place_of(ray, leap_base(ray, index)).distance);
     let brick = brick_at(p);
     let empty = textureLoad(skip_map, brick, 0).x;
     if empty == 0u {
         return index;
     }
-    return max(index, leap(ray, index, p, brick, empty));
+    return leap(ray, index, p, brick, empty);
 }

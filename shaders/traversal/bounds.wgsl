@@ -1,7 +1,9 @@
 /// Number of a loop that ran for too long, 0 for none. Loops of a user's own snippets are counted, so that one without an end
 /// cannot hold up the device; once one was found, all of them are left at once.
-@group(0) @binding(15) var<storage, read_write> overrun: atomic<u32>;
+@group(0) @binding(auto) var<storage, read_write> overrun: atomic<u32>;
 
+/// In place of the number of a loop: a ray was left before its end.
+const CUT_RAY = 0xffffffffu;
 const MOST_ROUNDS = 32768u;
 const MOST_ROUNDS_A_RAY = 1048576u;
 var<private> rounds_of_ray: u32;

@@ -1,86 +1,90 @@
 const MISS_DEPTH = 3.0e38;
+/// A cut this close to where a lattice begins, or a segment ends, is rounding: shares of a step, and of the way through the boxes.
+const SLACK_OF_STEP = 1e-4;
+const SLACK_OF_WAY = 1e-6;
 
-#if jitter
-/// A number from 0 to below 1 for a pixel, of 24 random bits: the integer hash PCG3D of Jarzynski and Olano (2020).
-fn jitter_at(pixel: vec2u) -> f32 {
-    var v = vec3u(pixel, frame.jitter_seed) * 1664525u + 1013904223u;
-    v.x += v.y * v.z;
-    v.y += v.z * v.x;
-    v.z += v.x * v.y;
-    v ^= v >> vec3u(16u);
-    v.x += v.y * v.z;
-    return f32(v.x >> 8u) / 16777216.0;
+@group(0) @binding(auto) var entry_points: texture_2d<f32>;
+@group(0) @binding(auto) var exit_points: texture_2d<f32>;
+
+/// The point of a plane that a ray passes, given by the middle and the half axes of the plane.
+fn on_plane(plane: array<vec4f, 3>, device: vec2f) -> vec3f {
+    return plane[0].xyz + plane[1].xyz * device.x + plane[2].xyz * device.y;
 }
 
-#endif
-/// The ray between the entry and exit points of a pixel.
+/// The distances at which a line enters (x) and leaves (y) the unit box; x > y when it misses.
+fn box_span(origin: vec3f, direction: vec3f) -> vec2f {
+    let moving = abs(direction) > vec3f(1e-20);
+    let slope = select(vec3f(1.0), direction, moving);
+    let a = -origin / slope;
+    let b = (1.0 - origin) / slope;
+    // A line parallel to a pair of faces is between them all along, or nowhere.
+    let between = (origin >= vec3f(0.0)) & (origin <= vec3f(1.0));
+    let low = select(select(vec3f(3e38), vec3f(-3e38), between), min(a, b), moving);
+    let high = select(select(vec3f(-3e38), vec3f(3e38), between), max(a, b), moving);
+    return vec2f(max(low.x, max(low.y, low.z)), min(high.x, min(high.y, high.z)));
+}
+
+/// The ray of a pixel: its line comes from the camera, entry and exit points cut it.
 fn ray_through(pixel: vec2u) -> Ray {
+    let device = (vec2f(pixel) + 0.5) * frame.pixel_to_device.xy + frame.pixel_to_device.zw;
+    let chord = on_plane(frame.chord, device);
+    let reach = length(chord);
+    var ray: Ray;
+    ray.view = -chord / max(reach, 1e-30);
+    // From the plane on which it begins to the boxes.
+    var way = vec2f(3e38, -3e38);
+#each source
+    let SRC_near = on_plane(SRC_source.near, device);
+    ray.SRC_direction = (on_plane(SRC_source.far, device) - SRC_near) / reach;
+    ray.SRC_span = box_span(SRC_near, ray.SRC_direction);
+    way = select(way, vec2f(min(way.x, ray.SRC_span.x), max(way.y, ray.SRC_span.y)), ray.SRC_span.x < ray.SRC_span.y);
+#end
     let entry = textureLoad(entry_points, pixel, 0);
     let exit = textureLoad(exit_points, pixel, 0);
-    let chord = exit.xyz - entry.xyz;
-    let world = frame.volume_to_world * chord;
-    let world_length = length(world);
-    // Sampling rate is counted along the ray in voxels, so an isotropic volume has one step length for all rays.
-    let steps = clamp(length(chord * frame.dims) * frame.samples_per_voxel, 1e-6, f32(frame.max_samples));
-    var ray: Ray;
-    ray.entry = entry.xyz;
-    ray.step = chord / steps;
-    ray.steps = steps;
-    // A remainder below 1e-4 of a step is rounding, not a segment: the last one takes it in.
-#if jitter
-    ray.shift = jitter_at(pixel);
-    ray.count = max(1u, u32(ceil(steps + ray.shift - 1e-4)));
-#else
-    ray.count = max(1u, u32(ceil(steps - 1e-4)));
-#endif
-    ray.step_length = world_length / steps;
-    ray.view = -world / max(world_length, 1e-30);
-    if entry.w < 0.5 || exit.w < 0.5 || world_length <= 0.0 {
-        ray.count = 0u;
+    let cut = vec2f(distance_of(entry.xyz, near, ray.direction), distance_of(exit.xyz, near, ray.direction));
+    if entry.w < 0.5 || exit.w < 0.5 || !(way.x < way.y) {
+        return ray;
+    }
+#each source
+    ray.SRC_origin = SRC_near + ray.SRC_direction * way.x;
+    ray.SRC_span -= way.x;
+#end
+    ray.depth_slope = (frame.depths.y - frame.depths.x) / reach;
+    ray.depth = frame.depths.x + ray.depth_slope * way.x;
+    ray.shift = lattice_shift(pixel);
+    let slack = SLACK_OF_STEP * frame.step + SLACK_OF_WAY * (way.y - way.x);
+    let begin = cut.x - way.x;
+    ray.begin = select(begin, 0.0, begin < slack);
+    ray.end = select(cut.y, way.y, cut.y > way.y - slack) - way.x;
+    if ray.begin < ray.end {
+        ray.first = floor(ray.begin / frame.step + ray.shift + SLACK_OF_STEP);
+        ray.last = max(ray.first + 1.0, ceil(ray.end / frame.step + ray.shift - SLACK_OF_STEP));
     }
     return ray;
 }
 
-/// Where sample `index` is (x, in steps) and how long its segment is (y, in steps).
-fn segment(ray: Ray, index: u32) -> vec2f {
-#if jitter
-    // The first segment is shortened, too.
-    let start = max(f32(index) - ray.shift, 0.0);
-    let whole = select(1.0, 1.0 - ray.shift, index == 0u);
-    let span = select(whole, ray.steps - start, index + 1u == ray.count);
-#else
-    let start = f32(index);
-    let span = select(1.0, ray.steps - start, index + 1u == ray.count);
-#endif
-#if segment_ends
-    return vec2f(start + span, span);
-#else
-    return vec2f(start + 0.5 * span, span);
-#endif
+/// How far a point of a line is from the line's origin.
+fn distance_of(point: vec3f, origin: vec3f, direction: vec3f) -> f32 {
+    return dot(point - origin, direction) / max(dot(direction, direction), 1e-37);
 }
 
-/// Volume coordinates after `along` steps.
-fn position_along(ray: Ray, along: f32) -> vec3f {
-    return ray.entry + ray.step * along;
+/// The segment that a sample stands for, and its place there. The first and the last segment may be cut short.
+fn place_of(ray: Ray, index: f32) -> Place {
+    let start = (index - ray.shift) * frame.step;
+    let low = select(start, ray.begin, index <= ray.first);
+    let high = select(start + frame.step, ray.end, index + 1.0 >= ray.last);
+    let whole = index > ray.first && index + 1.0 < ray.last;
+    let share = select(0.5, 1.0, SEGMENT_ENDS);
+    let length = select(high - low, frame.step, whole);
+    return Place(select(low + share * length, start + share * frame.step, whole), length);
 }
 
-/// Distance along the viewing direction in world units; linear along a ray for every camera.
-fn depth_along(ray: Ray, along: f32) -> f32 {
-    let depth = dot(frame.depth_plane, vec4f(position_along(ray, along), 1.0));
-    return select(depth, MISS_DEPTH, along < 0.0);
-}
-#if statistics
-
-fn count_wide(slot: u32, amount: u32) {
-    let before = atomicAdd(&counters[slot], amount);
-    if before + amount < before {
-        atomicAdd(&counters[slot + 1u], 1u);
-    }
+/// View depth, world units.
+fn depth_at(ray: Ray, distance: f32) -> f32 {
+    return ray.depth + ray.depth_slope * distance;
 }
 
-fn count_samples(ray: Ray, taken: u32, contributing: u32) {
-    count_wide(0u, select(0u, 1u, ray.count > 0u));
-    count_wide(2u, taken);
-    count_wide(4u, contributing);
+/// The depth that an output stores.
+fn stored_depth(ray: Ray, distance: f32) -> f32 {
+    return select(depth_at(ray, distance), MISS_DEPTH, distance < 0.0);
 }
-#endif

@@ -2,8 +2,8 @@
 struct Traced {
     /// Number of the sample on its ray.
     index: u32,
-    /// Steps from the entry point.
-    along: f32,
+    /// Its distance on the ray.
+    distance: f32,
     /// Length of the sample's segment in reference lengths.
     length: f32,
     /// Normalised value of the selected channel.
@@ -13,63 +13,68 @@ struct Traced {
     /// (emission, extinction) before and after shading.
     classified: vec4f,
     shaded: vec4f,
-    /// What each output would be if the ray ended behind this sample's segment.
+    /// What each output would be if the ray ended after this sample's segment.
     accumulated: array<vec4f, 3>,
 }
 
-/// One ray. The host says which; the shader tells the rest. Mirrored by the host.
+/// One ray. The host says which; the shader notes the rest. Mirrored by the host.
 struct Trace {
     pixel: vec2u,
     /// Samples taken; those beyond the length of `samples` are not noted.
     taken: u32,
     /// 1 when further samples could no longer matter and the ray was left early.
     stopped: u32,
-    entry: vec3f,
-    count: u32,
-    step: vec3f,
-    steps: f32,
-    /// The pixel of each output, and where its depth is on the ray (x, y, z, in steps).
+    origin: vec3f,
+    first: u32,
+    direction: vec3f,
+    last: u32,
+    begin: f32,
+    end: f32,
+    step: f32,
+    shift: f32,
+    /// The pixel of each output, and the distance of its depth on the ray (x, y, z).
     results: array<vec4f, 3>,
     places: vec4f,
     samples: array<Traced>,
 }
-@group(0) @binding(16) var<storage, read_write> trace: Trace;
+@group(0) @binding(auto) var<storage, read_write> trace: Trace;
 
 fn trace_ray(ray: Ray) {
-    trace.entry = ray.entry;
-    trace.count = ray.count;
-    trace.step = ray.step;
-    trace.steps = ray.steps;
+    trace.origin = ray.origin;
+    trace.direction = ray.direction;
+    trace.first = u32(ray.first);
+    trace.last = u32(ray.last);
+    trace.begin = ray.begin;
+    trace.end = ray.end;
+    trace.step = frame.step;
+    trace.shift = ray.shift;
 }
 
-/// Notes a sample as it is before shading.
-fn trace_sample(ray: Ray, s: Sample, index: u32) {
+/// Notes a sample.
+fn trace_sample(ray: Ray, s: Sample, index: f32) {
     let at = trace.taken;
     trace.taken = at + 1u;
     if at >= arrayLength(&trace.samples) {
         return;
     }
     var traced: Traced;
-    traced.index = index;
-    traced.along = s.along;
+    traced.index = u32(index);
+    traced.distance = s.distance;
     traced.length = s.length;
     traced.value = s.value;
 #if gradient
     traced.gradient = vec4f(world_gradient(s.position, s.voxel), 0.0);
 #endif
 #if medium
-    traced.classified = s.medium;
+    traced.classified = classify(s);
     traced.shaded = s.medium;
 #else
 #if medium_at
     // Nothing is classified in the loop; this is what the sample would be.
     var point = s;
     point.previous = s.value;
-#if classified_gradient
-    point.gradient = traced.gradient.xyz;
-#endif
     traced.classified = classify(point);
-    traced.shaded = medium_at(ray, s.along);
+    traced.shaded = medium_at(ray, s.distance);
 #else
 #if classify_value
     traced.classified = classify_value(s.value);
@@ -85,33 +90,23 @@ fn trace_has_room() -> bool {
     return trace.taken > 0u && trace.taken <= arrayLength(&trace.samples);
 }
 
-fn trace_shaded(medium: vec4f) {
-    if trace_has_room() {
-        trace.samples[trace.taken - 1u].shaded = medium;
-    }
-}
-
 fn trace_accumulated(output: u32, color: vec4f) {
     if trace_has_room() {
         trace.samples[trace.taken - 1u].accumulated[output] = color;
     }
 }
 
-/// The ray as if it ended behind its first `count` segments.
-fn ray_until(ray: Ray, count: u32) -> Ray {
+/// The ray as if it ended before sample `index`.
+fn ray_until(ray: Ray, index: f32) -> Ray {
     var part = ray;
-    if count < ray.count {
-        part.count = count;
-#if jitter
-        part.steps = f32(count) - ray.shift;
-#else
-        part.steps = f32(count);
-#endif
+    if index < ray.last {
+        part.last = index;
+        part.end = (index - ray.shift) * frame.step;
     }
     return part;
 }
 
 fn trace_result(output: u32, result: Result) {
     trace.results[output] = result.color;
-    trace.places[output] = result.along;
+    trace.places[output] = result.distance;
 }

@@ -1,22 +1,23 @@
-//! Fills the skeleton with the chosen snippets and keeps the origin of every line.
+//! Fills a skeleton with the chosen snippets and keeps the origin of every line.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use crate::TRAVERSAL;
-use crate::choice::{Choice, Features};
-use crate::declaration::{Declaration, Parameter};
+use crate::checked::{At, Checked, Features, Place, source_prefix};
+use crate::declaration::Parameter;
 use crate::diagnostic::{Diagnostic, Origin, SourceMap};
 use crate::lexer::{line_and_column, module_scope_names, tokens};
 use crate::library::{Library, SourceKind};
 use crate::limits;
 use crate::rename::{Renaming, loops};
+use crate::shake::used_lines;
+use crate::skeleton::Skeleton;
 use crate::slot::{Slot, contract, signature};
 
 const MAX_INCLUDE_DEPTH: usize = 16;
 
-/// The first binding of the outputs: colour of output k at `FIRST_OUTPUT_BINDING + 2 k`, its depth one further.
-pub(crate) const FIRST_OUTPUT_BINDING: usize = 16;
+/// In place of the number of a binding: the assembler counts.
+const BINDING: &str = "@binding(auto)";
 
 /// A complete shader with the origin of its lines.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,159 +26,142 @@ pub struct Assembled {
     pub text: String,
     /// Origin of every line.
     pub map: SourceMap,
-    /// What the loop contains.
+    /// What the shader contains.
     pub features: Features,
-    /// Parameters of the snippets that are in the text: (field of the uniform struct, place, parameter).
-    /// The place is the slot's id, or `out1`, `out2`, `out3` for compositing.
-    pub parameters: Vec<(String, String, Parameter)>,
+    /// Parameters of the snippets that are in the text: (field of the uniform struct, where, slot, parameter).
+    pub parameters: Vec<(String, At, Slot, Parameter)>,
     /// File, line and column of every loop that counts its rounds: the one with number n is at n - 1.
     pub loops: Vec<(Arc<str>, u32, u32)>,
+    /// The texts of the snippets that are a user's own, by path.
+    own: BTreeMap<Arc<str>, Arc<str>>,
 }
 
-/// Assembles the ray traversal for a choice.
+impl Assembled {
+    /// The text of a file that the shader was made from.
+    pub(crate) fn source<'a>(&'a self, library: &'a Library, path: &str) -> &'a str {
+        self.own.get(path).map(|text| &**text).or_else(|| Some(&*library.source(path)?.text)).unwrap_or("")
+    }
+}
+
+/// Assembles a skeleton with what was checked.
 ///
 /// # Errors
-/// A refused combination (as a diagnostic without line), a snippet that does not keep its slot's contract,
-/// an unknown or cyclic include, a malformed directive: each with file and line.
-pub fn assemble(library: &Library, choice: &Choice) -> Result<Assembled, Vec<Diagnostic>> {
-    let mut features = choice.check(library).map_err(|problems| {
-        problems.into_iter().map(|problem| Diagnostic::new("ray traversal", 0, 0, problem.message)).collect::<Vec<_>>()
-    })?;
-    let places = places(library, choice, &features);
-    if places.iter().any(|place| place.is_own) {
-        features.flags.insert("own".to_owned());
-    }
-    if places.iter().any(|place| place.is_own && place.may_loop()) {
-        features.flags.insert("bounded".to_owned());
-    }
-    let skeleton = library.source(TRAVERSAL).map_or("", |source| &source.text);
-    let problems: Vec<_> = places
-        .iter()
-        .flat_map(|place| {
-            let others = places.iter().filter(|other| other.prefix != place.prefix);
-            let foreign: Vec<_> = others.flat_map(|other| other.private_names(skeleton)).collect();
-            let mut problems = place.breaches(skeleton);
-            problems.extend(limits::breaches(&place.path, &place.text, &foreign));
-            problems
-        })
-        .collect();
+/// A snippet that does not keep its slot's contract, an unknown or cyclic include, a malformed directive: each with file and line.
+pub fn assemble(library: &Library, skeleton: &Skeleton, checked: &Checked) -> Result<Assembled, Vec<Diagnostic>> {
+    let places: Vec<&Place> =
+        checked.places.iter().filter(|place| skeleton.scope(place.slot).is_some()).collect();
+    let head = library.source(skeleton.path).map_or("", |source| &source.text);
+    let problems: Vec<_> = places.iter().flat_map(|place| place_problems(place, &places, head)).collect();
     if !problems.is_empty() {
         return Err(problems);
     }
     let mut writer = Writer {
         library,
-        features: &features,
+        checked,
         places: &places,
-        skeleton,
+        head,
+        source: None,
         done: BTreeSet::new(),
         open: Vec::new(),
         text: String::new(),
         map: SourceMap::default(),
         loops: Vec::new(),
     };
-    writer.file(TRAVERSAL, None).map_err(|problem| vec![problem])?;
+    writer.file(skeleton.path, None).map_err(|problem| vec![problem])?;
     let Writer { text, map, loops, .. } = writer;
-    let parameters = places
-        .iter()
-        .flat_map(|place| {
-            place
-                .declaration
-                .parameters
-                .iter()
-                .map(|parameter| (place.field(parameter), place.prefix.clone(), parameter.clone()))
-        })
-        .collect();
-    Ok(Assembled { text, map, features, parameters, loops })
+    let parameters = places.iter().flat_map(|place| {
+        let parameters = place.declaration().parameters.iter();
+        parameters.map(|parameter| (place.field(parameter), place.at, place.slot, parameter.clone()))
+    });
+    let own = places.iter().filter(|place| place.snippet.is_own());
+    let assembled = Assembled {
+        text,
+        map,
+        features: checked.features.clone(),
+        parameters: parameters.collect(),
+        loops,
+        own: own.map(|place| (place.path().clone(), place.snippet.text().clone())).collect(),
+    };
+    Ok(numbered(shaken(assembled, library)))
 }
 
-/// A snippet in its place: the slot, or the output for compositing.
-struct Place {
-    slot: Slot,
-    output: Option<usize>,
-    prefix: String,
-    path: Arc<str>,
-    text: Arc<str>,
-    declaration: Arc<Declaration>,
-    /// Whether it is not built in, but a user's.
-    is_own: bool,
+/// Without what nothing uses. Texts of a user's own stay whole, so that what is wrong in them is found.
+fn shaken(mut assembled: Assembled, library: &Library) -> Assembled {
+    let is_own = |line: usize| {
+        let file = &assembled.map.lines[line].file;
+        assembled.own.contains_key(file)
+            || library.source(file).is_some_and(|source| source.kind != SourceKind::BuiltIn)
+    };
+    let used = used_lines(&assembled.text, is_own);
+    let kept = |line: &usize| used.get(*line).copied().unwrap_or(true);
+    let lines = assembled.text.lines().enumerate().filter(|(line, _)| kept(line));
+    assembled.text = lines.map(|(_, line)| format!("{line}\n")).collect();
+    let origins = std::mem::take(&mut assembled.map.lines).into_iter().enumerate();
+    assembled.map.lines = origins.filter(|(line, _)| kept(line)).map(|(_, origin)| origin).collect();
+    assembled
 }
 
-fn places(library: &Library, choice: &Choice, features: &Features) -> Vec<Place> {
-    let slots = choice
-        .snippets
-        .iter()
-        .filter(|(slot, _)| features.slots.contains(slot))
-        .map(|(slot, path)| (*slot, None, path));
-    let outputs = choice
-        .outputs
-        .iter()
-        .enumerate()
-        .filter_map(|(index, path)| Some((Slot::Compositing, Some(index), path.as_ref()?)));
-    slots
-        .chain(outputs)
-        .filter_map(|(slot, output, path)| {
-            let source = library.source(path)?;
-            Some(Place {
-                slot,
-                output,
-                prefix: output.map_or_else(|| slot.id().to_owned(), |index| format!("out{}", index + 1)),
-                path: path.clone(),
-                text: source.text.clone(),
-                declaration: library.declaration(path)?.clone(),
-                is_own: source.kind != SourceKind::BuiltIn,
-            })
-        })
-        .collect()
+/// With a number for every binding, in the order of the text.
+fn numbered(mut assembled: Assembled) -> Assembled {
+    let mut parts = assembled.text.split(BINDING);
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for (number, part) in parts.enumerate() {
+        text += &format!("@binding({number}){part}");
+    }
+    assembled.text = text;
+    assembled
+}
+
+/// What is wrong with a snippet in its place.
+fn place_problems(place: &Place, places: &[&Place], head: &str) -> Vec<Diagnostic> {
+    let mut problems = place.breaches(head);
+    if place.snippet.is_own() {
+        let others = places.iter().filter(|other| other.prefix() != place.prefix() && !other.is_of_program());
+        let foreign: Vec<_> = others.flat_map(|other| other.private_names(head)).collect();
+        problems.extend(limits::breaches(place.path(), place.snippet.text(), &foreign));
+    }
+    problems
 }
 
 impl Place {
-    /// Whether there may be loops in its text, or in other files of a user's that it includes.
-    fn may_loop(&self) -> bool {
-        !loops(&tokens(&self.text)).is_empty() || self.text.contains("\"user/")
-    }
-
-    fn field(&self, parameter: &Parameter) -> String {
-        format!("{}_{}", self.prefix, parameter.name)
-    }
-
     /// The names that the skeleton calls as they are; those of compositing get the prefix of their output.
-    fn kept_names(&self, skeleton: &str) -> Vec<String> {
-        match self.output {
-            Some(_) => Vec::new(),
-            None => contract(skeleton, self.slot).into_iter().map(|prototype| prototype.name).collect(),
+    fn kept_names(&self, head: &str) -> Vec<String> {
+        match self.at {
+            At::Output(_) => Vec::new(),
+            _ => contract(head, self.slot).into_iter().map(|prototype| prototype.name).collect(),
         }
     }
 
     /// The names at module scope that are private to the snippet, as they are in the shader.
-    fn private_names(&self, skeleton: &str) -> Vec<String> {
-        let kept = self.kept_names(skeleton);
-        let names = module_scope_names(&self.text).into_iter().filter(|(name, _)| !kept.iter().any(|k| k == name));
-        names.map(|(name, _)| format!("{}_{name}", self.prefix)).collect()
+    fn private_names(&self, head: &str) -> Vec<String> {
+        let kept = self.kept_names(head);
+        let names = module_scope_names(self.snippet.text());
+        let names = names.into_iter().filter(|(name, _)| !kept.iter().any(|k| k == name));
+        names.map(|(name, _)| format!("{}_{name}", self.prefix())).collect()
     }
 
     /// What the snippet lacks of its slot's contract, and parameters it reads without declaring them.
-    fn breaches(&self, skeleton: &str) -> Vec<Diagnostic> {
-        let names = module_scope_names(&self.text);
+    fn breaches(&self, head: &str) -> Vec<Diagnostic> {
+        let text = &**self.snippet.text();
+        let names = module_scope_names(text);
         let mut problems = Vec::new();
-        for prototype in contract(skeleton, self.slot) {
+        for prototype in contract(head, self.slot) {
             let wanted = &prototype.text;
-            let message = if prototype.text.starts_with("struct") {
-                names
-                    .iter()
-                    .all(|(name, _)| *name != prototype.name)
-                    .then(|| (1, 1, format!("a {} snippet must define `{wanted}`", self.slot)))
+            let missing = || Some((1, 1, format!("a {} snippet must define `{wanted}`", self.slot)));
+            let fault = if wanted.starts_with("struct") {
+                names.iter().all(|(name, _)| *name != prototype.name).then(missing).flatten()
             } else {
-                match (signature(&self.text, &prototype.name), signature(wanted, &prototype.name)) {
-                    (None, _) => Some((1, 1, format!("a {} snippet must define `{wanted}`", self.slot))),
+                match (signature(text, &prototype.name), signature(wanted, &prototype.name)) {
+                    (None, _) => missing(),
                     (Some((found, at)), Some((expected, _))) if found != expected => {
-                        let (line, column) = line_and_column(&self.text, at);
+                        let (line, column) = line_and_column(text, at);
                         Some((line, column, format!("the contract of slot {} is `{wanted}`", self.slot)))
                     }
                     _ => None,
                 }
             };
-            if let Some((line, column, message)) = message {
-                problems.push(Diagnostic::new(&self.path, line, column, message).with_excerpt(&self.text));
+            if let Some((line, column, message)) = fault {
+                problems.push(Diagnostic::new(self.path(), line, column, message).with_excerpt(text));
             }
         }
         problems.extend(self.undeclared_parameters());
@@ -185,27 +169,30 @@ impl Place {
     }
 
     fn undeclared_parameters(&self) -> Vec<Diagnostic> {
-        let list = crate::lexer::tokens(&self.text);
-        list.windows(3)
-            .filter(|three| three[0].text == "params" && three[1].text == ".")
-            .filter(|three| self.declaration.parameters.iter().all(|parameter| parameter.name != three[2].text))
-            .map(|three| {
-                let (line, column) = line_and_column(&self.text, three[2].start);
-                let name = three[2].text;
-                let message = format!("no parameter `{name}` is declared; add a line such as `//! param {name}: f32 = 1 [0, 2] -- what it does`");
-                Diagnostic::new(&self.path, line, column, message).with_excerpt(&self.text)
-            })
-            .collect()
+        let text = &**self.snippet.text();
+        let declared = |name: &str| self.declaration().parameters.iter().any(|parameter| parameter.name == name);
+        let list = tokens(text);
+        let reads = list.windows(3).filter(|three| three[0].text == "params" && three[1].text == ".");
+        let undeclared = reads.filter(|three| !declared(three[2].text)).map(|three| {
+            let (line, column) = line_and_column(text, three[2].start);
+            let name = three[2].text;
+            let message = format!("no parameter `{name}` is declared; add a line such as `//! param {name}: f32 = 1 [0, 2] -- what it does`");
+            Diagnostic::new(self.path(), line, column, message).with_excerpt(text)
+        });
+        undeclared.collect()
     }
 }
 
 struct Writer<'a> {
     library: &'a Library,
-    features: &'a Features,
-    places: &'a [Place],
-    skeleton: &'a str,
-    /// Files included already.
-    done: BTreeSet<Arc<str>>,
+    checked: &'a Checked,
+    places: &'a [&'a Place],
+    /// Text of the skeleton, whose head states the contracts.
+    head: &'a str,
+    /// The volume whose part is being written.
+    source: Option<usize>,
+    /// Files included already, those of a volume's part for each volume.
+    done: BTreeSet<(Option<usize>, Arc<str>)>,
     /// Files being included, outermost first.
     open: Vec<Arc<str>>,
     text: String,
@@ -221,15 +208,17 @@ struct Line {
 }
 
 fn lines(text: &str, renaming: &Renaming) -> Vec<Line> {
-    renaming
-        .apply(text)
-        .into_iter()
-        .zip(1..)
-        .map(|(line, number)| Line { number, text: line.text, shifts: line.shifts })
-        .collect()
+    let renamed = renaming.apply(text).into_iter().zip(1..);
+    renamed.map(|(line, number)| Line { number, text: line.text, shifts: line.shifts }).collect()
 }
 
 impl Writer<'_> {
+    fn has(&self, flag: &str) -> bool {
+        let of_source = self.source.or((self.checked.sources.len() == 1).then_some(0));
+        let of_source = of_source.and_then(|source| self.checked.sources.get(source));
+        self.checked.common.flags.contains(flag) || of_source.is_some_and(|source| source.flags.contains(flag))
+    }
+
     fn file(&mut self, path: &str, from: Option<(&str, u32)>) -> Result<(), Diagnostic> {
         let at = |message: String| {
             Diagnostic::new(from.map_or(path, |from| from.0), from.map_or(0, |from| from.1), 0, message)
@@ -241,31 +230,47 @@ impl Writer<'_> {
             let chain: Vec<_> = self.open.iter().map(|open| &**open).chain([path]).collect();
             return Err(at(format!("files include each other: {}", chain.join(" -> "))));
         }
-        if !self.done.insert(source.path.clone()) {
+        if self.done.contains(&(None, source.path.clone())) || !self.done.insert((self.source, source.path.clone())) {
             return Ok(());
         }
-        if source.kind != SourceKind::BuiltIn
-            && let Some(problem) = limits::breaches(&source.path, &source.text, &[]).into_iter().next()
-        {
+        let own = source.kind != SourceKind::BuiltIn;
+        if own && let Some(problem) = limits::breaches(&source.path, &source.text, &[]).into_iter().next() {
             return Err(problem);
         }
         self.open.push(source.path.clone());
-        let own = source.kind != SourceKind::BuiltIn;
-        let renaming = self.bounded(Renaming::default(), &source.path, &source.text, own);
+        let renaming = self.bounded(self.of_source(&source.text), &source.path, &source.text, own);
         let result = self.lines(&source.path, lines(&source.text, &renaming), None);
         self.open.pop();
         result
     }
 
     fn snippet(&mut self, place: &Place) -> Result<(), Diagnostic> {
-        let keep = place.kept_names(self.skeleton);
-        let parameters: Vec<_> = place.declaration.parameters.iter().map(|parameter| parameter.name.clone()).collect();
-        let renaming = Renaming::scoped(&place.text, &place.prefix, &keep, &parameters);
-        let renaming = self.bounded(renaming, &place.path, &place.text, place.is_own);
-        self.open.push(place.path.clone());
-        let result = self.lines(&place.path, lines(&place.text, &renaming), place.output);
+        let text = place.snippet.text();
+        let renaming = match place.is_of_program() {
+            true => self.of_source(text),
+            false => {
+                let keep = place.kept_names(self.head);
+                let parameters: Vec<_> = place.declaration().parameters.iter().map(|p| p.name.clone()).collect();
+                Renaming::scoped(text, &place.own_prefix(), &keep, &parameters)
+            }
+        };
+        let renaming = self.bounded(renaming, place.path(), text, place.snippet.is_own());
+        self.open.push(place.path().clone());
+        let output = match place.at {
+            At::Output(output) => Some(output),
+            _ => None,
+        };
+        let result = self.lines(place.path(), lines(text, &renaming), output);
         self.open.pop();
         result
+    }
+
+    /// Names that begin with `SRC_` are those of the volume at hand.
+    fn of_source(&self, text: &str) -> Renaming {
+        match self.source {
+            Some(source) => Renaming::marked(text, "SRC_", &source_prefix(source)),
+            None => Renaming::default(),
+        }
     }
 
     /// Bounds the loops of a text that is a user's own.
@@ -302,8 +307,7 @@ impl Writer<'_> {
             let rest = rest.trim();
             match word {
                 "if" => branches.push((
-                    rest.strip_prefix('!')
-                        .map_or_else(|| self.features.has(rest), |flag| !self.features.has(flag.trim())),
+                    rest.strip_prefix('!').map_or_else(|| self.has(rest), |flag| !self.has(flag.trim())),
                     line.number,
                 )),
                 "else" => match branches.last_mut() {
@@ -313,13 +317,16 @@ impl Writer<'_> {
                 "endif" => {
                     branches.pop().ok_or_else(|| fail("#endif without #if".into()))?;
                 }
-                "each" | "snippet" | "parameters" if self.in_snippet() => {
+                "each" | "snippet" | "parameters" | "constants" if self.in_snippet() => {
                     return Err(fail(format!("`#{word}` is up to the skeleton; a snippet may use #include and #if")));
                 }
                 "each" => {
                     let block = each_block(&mut lines).ok_or_else(|| fail("#each without #end".into()))?;
-                    if live {
-                        self.each_output(file, &block)?;
+                    match rest {
+                        _ if !live => {}
+                        "output" => self.each_output(file, &block)?,
+                        "source" => self.each_source(file, &block)?,
+                        _ => return Err(fail(format!("`#each {rest}` means nothing; there are output and source"))),
                     }
                 }
                 _ if !live => {}
@@ -331,9 +338,10 @@ impl Writer<'_> {
                     self.snippets(rest, output).ok_or_else(|| fail(format!("there is no slot `{rest}`")))??
                 }
                 "parameters" => self.parameters(),
+                "constants" => self.constants(),
                 _ => {
                     return Err(fail(format!(
-                        "unknown directive `#{word}`; directives are #include, #if, #else, #endif, #each, #end, #snippet and #parameters"
+                        "unknown directive `#{word}`; directives are #include, #if, #else, #endif, #each, #end, #snippet, #parameters and #constants"
                     )));
                 }
             }
@@ -344,9 +352,12 @@ impl Writer<'_> {
         }
     }
 
-    /// Whether a snippet, or what one includes, is being written.
+    /// Whether a snippet that users may choose, or what one includes, is being written.
     fn in_snippet(&self) -> bool {
-        self.open.iter().any(|path| self.library.declaration(path).is_some())
+        self.open.iter().any(|path| {
+            let here = |place: &&&Place| place.path() == path;
+            self.places.iter().find(here).is_some_and(|place| !place.is_of_program())
+        })
     }
 
     fn push(&mut self, file: &Arc<str>, line: Line) {
@@ -356,59 +367,101 @@ impl Writer<'_> {
     }
 
     fn each_output(&mut self, file: &Arc<str>, block: &[Line]) -> Result<(), Diagnostic> {
-        for place in self.places.iter().filter(|place| place.output.is_some()) {
+        for output in self.checked.outputs() {
             let repeated = block.iter().map(|line| {
-                let output = place.output.unwrap_or(0);
-                let binding = FIRST_OUTPUT_BINDING + 2 * output;
-                let text = line
-                    .text
-                    .replace("OUT_COLOR_BINDING", &binding.to_string())
-                    .replace("OUT_DEPTH_BINDING", &(binding + 1).to_string())
-                    .replace("OUT_INDEX", &format!("{output}u"));
-                let renamed = Renaming::output(&text, &place.prefix).apply(&text);
-                let text = renamed.into_iter().map(|line| line.text).collect();
-                Line { number: line.number, text, shifts: Vec::new() }
+                let text = line.text.replace("OUT_INDEX", &format!("{output}u"));
+                repeat(line.number, &text, "OUT_", &format!("out{}_", output + 1))
             });
-            self.lines(file, repeated.collect(), place.output)?;
+            self.lines(file, repeated.collect(), Some(output))?;
         }
         Ok(())
     }
 
-    /// Inserts the snippet of a slot; inside `#each output` that of the output. `None` for an unknown slot.
+    /// What belongs to one volume is written for each. The names of the first are as they are written, those of others get a
+    /// prefix; inside of functions, names that begin with `SRC_` are a volume's.
+    fn each_source(&mut self, file: &Arc<str>, block: &[Line]) -> Result<(), Diagnostic> {
+        for source in 0..self.checked.sources.len() {
+            let prefix = source_prefix(source);
+            let repeated = block.iter().map(|line| repeat(line.number, &line.text, "SRC_", &prefix)).collect();
+            let outer = self.source.replace(source);
+            let (start, first) = (self.text.len(), self.map.lines.len());
+            let result = self.lines(file, repeated, None);
+            self.source = outer;
+            result?;
+            if source > 0 {
+                self.rename_source(source, start, first);
+            }
+        }
+        Ok(())
+    }
+
+    /// Gives the names at module scope in what was written last, from byte `start` and line `first` on, the prefix of a volume.
+    fn rename_source(&mut self, source: usize, start: usize, first: usize) {
+        let part = self.text.split_off(start);
+        let prefix = source_prefix(source);
+        let fields = self.places.iter().filter(|place| place.at == At::Source(source)).flat_map(|place| {
+            let plain = |name: &str| format!("{}_{name}", place.own_prefix());
+            place.declaration().parameters.iter().map(move |p| (plain(&p.name), place.field(p))).collect::<Vec<_>>()
+        });
+        let renaming = Renaming::prefixed(&part, &prefix, fields.collect());
+        for (line, origin) in renaming.apply(&part).into_iter().zip(self.map.lines[first..].iter_mut()) {
+            self.text += &line.text;
+            self.text.push('\n');
+            origin.shift(&line.shifts);
+        }
+    }
+
+    /// Inserts the snippet of a slot; inside `#each` that of the output or volume. `None` for an unknown slot.
     fn snippets(&mut self, slot: &str, output: Option<usize>) -> Option<Result<(), Diagnostic>> {
         let slot = Slot::from_id(slot)?;
         let places = self.places;
-        Some(
-            places
-                .iter()
-                .filter(|place| place.slot == slot && place.output == output)
-                .try_for_each(|place| self.snippet(place)),
-        )
+        let source = self.source;
+        let here = |place: &&&Place| {
+            place.slot == slot
+                && match place.at {
+                    At::Ray => true,
+                    At::Source(at) => source == Some(at),
+                    At::Output(at) => output == Some(at),
+                }
+        };
+        Some(places.iter().filter(here).try_for_each(|place| self.snippet(place)))
     }
 
     /// The uniform struct with the snippets' parameters, or nothing when there are none.
     fn parameters(&mut self) {
-        let fields: Vec<_> = self
-            .places
-            .iter()
-            .flat_map(|place| {
-                place
-                    .declaration
-                    .parameters
-                    .iter()
-                    .map(|parameter| format!("    {}: {},", place.field(parameter), parameter.ty.wgsl()))
-            })
-            .collect();
+        let fields = self.places.iter().flat_map(|place| {
+            let parameters = place.declaration().parameters.iter();
+            parameters.map(|parameter| format!("    {}: {},", place.field(parameter), parameter.ty.wgsl()))
+        });
+        let fields: Vec<_> = fields.collect();
         if fields.is_empty() {
             return;
         }
-        let file: Arc<str> = "<generated: parameters>".into();
         let head = ["struct Params {".to_owned()];
-        let tail = ["}".to_owned(), "@group(0) @binding(1) var<uniform> params: Params;".to_owned()];
-        for (text, number) in head.into_iter().chain(fields).chain(tail).zip(1..) {
+        let tail = ["}".to_owned(), format!("@group(0) {BINDING} var<uniform> params: Params;")];
+        self.generated("<generated: parameters>", head.into_iter().chain(fields).chain(tail));
+    }
+
+    /// The constants of a volume, or of all rays.
+    fn constants(&mut self) {
+        let settings = self.source.and_then(|source| self.checked.sources.get(source));
+        let constants = &settings.unwrap_or(&self.checked.common).constants;
+        let lines: Vec<_> = constants.iter().map(|(name, value)| format!("const {name} = {value};")).collect();
+        self.generated("<generated: constants>", lines);
+    }
+
+    fn generated(&mut self, file: &str, lines: impl IntoIterator<Item = String>) {
+        let file: Arc<str> = file.into();
+        for (text, number) in lines.into_iter().zip(1..) {
             self.push(&file, Line { number, text, shifts: Vec::new() });
         }
     }
+}
+
+/// A line of a block that is repeated: names that begin with `mark` get `prefix` instead.
+fn repeat(number: u32, text: &str, mark: &str, prefix: &str) -> Line {
+    let renamed = Renaming::marked(text, mark, prefix).apply(text);
+    Line { number, text: renamed.into_iter().map(|line| line.text).collect(), shifts: Vec::new() }
 }
 
 /// The lines up to `#end`.

@@ -31,6 +31,21 @@ impl Origin {
     }
 }
 
+impl Origin {
+    /// Notes that the line was renamed once more.
+    pub(crate) fn shift(&mut self, later: &[(u32, u32, u32)]) {
+        let grown = |column: u32| {
+            let before = later.iter().filter(|(start, new, _)| i64::from(*start) < i64::from(column) + i64::from(*new));
+            before.map(|(_, new, old)| i64::from(*new) - i64::from(*old)).sum::<i64>()
+        };
+        for (start, ..) in &mut self.renames {
+            *start = (i64::from(*start) + grown(*start)).max(1) as u32;
+        }
+        self.renames.extend(later);
+        self.renames.sort_by_key(|(start, ..)| *start);
+    }
+}
+
 /// One [`Origin`] for every line of an assembled shader.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SourceMap {

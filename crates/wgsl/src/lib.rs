@@ -1,10 +1,12 @@
-//! Assembles the WGSL of a ray traversal from swappable snippets. Text in, text and spans out: no device, no window.
+//! Assembles WGSL from skeletons and swappable snippets. Text in, text and spans out: no device, no window.
 //!
 //! # How a shader comes about
-//! 1. [`Library`] holds the source files: the built-in ones under `shaders/`, those of a user folder, and edited texts that replace a file for one processor.
+//! 1. [`Library`] holds the source files: the built-in ones under `shaders/` and those of a user folder. A text edited for one
+//!    processor is a [`Snippet`] of its own.
 //! 2. Every snippet file starts with a [`Declaration`] in `//!` lines: its slot, help, what it reads and forbids, and its parameters.
-//! 3. A [`Choice`] names one snippet a slot. [`Choice::check`] refuses combinations that make no sense, with the reason.
-//! 4. [`assemble`] fills the skeleton with the snippets. What nothing reads is not emitted. Every output line knows the file and line it came from.
+//! 3. A [`Choice`] says what fills the slots. [`Choice::check`] refuses combinations that make no sense, with the reason; what it
+//!    gives, [`Checked`], also holds the snippets that the program puts in.
+//! 4. [`assemble`] fills a [`Skeleton`]. What no entry point leads to is left out. Every line knows the file and line it came from.
 //! 5. [`validate`] parses and validates the text with naga. Every [`Diagnostic`] names file, line and column of the *snippet*.
 //!
 //! # The preprocessor
@@ -12,16 +14,22 @@
 //!
 //! | directive | meaning |
 //! |---|---|
-//! | `#include "folder/file.wgsl"` | inserts the file, once a shader |
-//! | `#if flag`, `#if !flag`, `#else`, `#endif` | keeps lines only where the flag is set; flags are computed from what the chosen snippets read |
-//! | `#each output` ... `#end` | repeats the lines for every active output, `OUT` becoming `out1`, `out2`, `out3` |
-//! | `#snippet slot` | inserts the chosen snippet |
+//! | `#include "folder/file.wgsl"` | inserts the file, once for each shader, or for each volume inside `#each source` |
+//! | `#if flag`, `#if !flag`, `#else`, `#endif` | keeps lines only where the flag is set |
+//! | `#each output` ... `#end` | repeats the lines for every output in use, `OUT_` becoming `out1_`, `out2_`, `out3_` |
+//! | `#each source` ... `#end` | repeats the lines for every volume; `SRC_` and the names declared there begin with `v2_`, `v3_`, ... for all but the first |
+//! | `#snippet slot` | inserts the snippet in a slot, of the output or volume at hand |
 //! | `#parameters` | inserts the uniform struct that holds the snippets' parameters |
+//! | `#constants` | inserts constants of the volume at hand, or of all rays |
+//!
+//! Bindings are numbered by the assembler where `@binding(auto)` is written.
 //!
 //! ## Not supported
 //! Macros, nested `#each`, expressions in `#if`, and includes by relative path: a snippet that needs more should be two snippets.
 
 mod assemble;
+mod check;
+mod checked;
 mod choice;
 mod declaration;
 mod diagnostic;
@@ -32,11 +40,15 @@ mod lexer;
 mod library;
 mod limits;
 mod rename;
+mod shake;
+mod skeleton;
 mod slot;
+mod snippet;
 mod validate;
 
 pub use assemble::{Assembled, assemble};
-pub use choice::{Choice, Features, MAX_OUTPUTS, Problem, legal_choices};
+pub use checked::{At, Checked, Features};
+pub use choice::{Choice, MAX_OUTPUTS, Problem, SourceChoice, legal_choices};
 pub use declaration::{
     Declaration, Emptiness, Forbidden, Kernel, Parameter, ParameterType, READS, Termination, Visibility,
     parse_declaration,
@@ -46,8 +58,7 @@ pub use highlight::{Highlight, highlight};
 pub use interface::{Field, Interface, ParameterLayout};
 pub use library::{Library, Source, SourceKind};
 pub use rename::has_loops;
+pub use skeleton::{Scope, Skeleton};
 pub use slot::{Prototype, Slot, contract};
+pub use snippet::Snippet;
 pub use validate::{Validated, validate};
-
-/// Path of the skeleton of the ray traversal inside the library.
-pub const TRAVERSAL: &str = "traversal/traversal.wgsl";

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::declaration::{Declaration, parse_declaration, stem};
+use crate::declaration::{Declaration, stem};
 use crate::diagnostic::Diagnostic;
 use crate::lexer::line_and_column;
-use crate::limits;
 use crate::slot::Slot;
+use crate::snippet::Snippet;
 
 /// The files under `shaders/`, embedded at build time: (path with forward slashes, text).
 const BUILT_IN: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
@@ -39,7 +39,7 @@ pub struct Source {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Library {
     sources: BTreeMap<Arc<str>, Source>,
-    snippets: BTreeMap<Arc<str>, Arc<Declaration>>,
+    snippets: BTreeMap<Arc<str>, Snippet>,
 }
 
 impl Library {
@@ -50,7 +50,7 @@ impl Library {
     pub fn built_in() -> Result<Self, Diagnostic> {
         let mut library = Self { sources: BTreeMap::new(), snippets: BTreeMap::new() };
         for (path, text) in BUILT_IN {
-            library.insert(path, text, SourceKind::BuiltIn)?;
+            library.insert_built_in(path, text)?;
         }
         Ok(library)
     }
@@ -86,43 +86,30 @@ impl Library {
     /// A malformed declaration, or an id that another snippet of the slot has already.
     pub fn add_user(&mut self, file: &str, text: &str) -> Result<(), Diagnostic> {
         let path = format!("user/{file}");
-        let declaration = parse_declaration(&path, text)?;
-        if let Some(known) = self.path(declaration.slot, stem(file)).filter(|known| **known != *path) {
-            let message = format!(
-                "`{known}` is already the {} snippet `{}`; give this file another name",
-                declaration.slot,
-                stem(file)
-            );
+        let snippet = Snippet::parse(&path, text, SourceKind::User)?;
+        let slot = snippet.declaration().slot;
+        if let Some(known) = self.path(slot, stem(file)).filter(|known| **known != *path) {
+            let message = format!("`{known}` is already the {slot} snippet `{}`; give this file another name", stem(file));
             return Err(Diagnostic::new(&path, 1, 0, message));
         }
-        self.insert(&path, text, SourceKind::User)
-    }
-
-    /// Adds a text edited for one processor and returns the path under which an assembly finds it.
-    ///
-    /// # Errors
-    /// A malformed declaration, or one of another slot than the text is to fill.
-    pub fn add_edited(&mut self, place: &str, slot: Slot, text: &str) -> Result<Arc<str>, Diagnostic> {
-        let path: Arc<str> = format!("edited/{place}.wgsl").into();
-        let declaration = parse_declaration(&path, text)?;
-        if declaration.slot != slot {
-            let message = format!("the text declares slot `{}`, but it is used as `{slot}`", declaration.slot);
-            return Err(Diagnostic::new(&path, 1, 0, message).with_excerpt(text));
-        }
-        self.insert(&path, text, SourceKind::Edited)?;
-        Ok(path)
-    }
-
-    fn insert(&mut self, path: &str, text: &str, kind: SourceKind) -> Result<(), Diagnostic> {
-        let path: Arc<str> = path.into();
-        if kind != SourceKind::BuiltIn {
-            limits::check_length(&path, text)?;
-        }
-        if text.lines().next().is_some_and(|line| line.starts_with("//! slot:")) || kind != SourceKind::BuiltIn {
-            self.snippets.insert(path.clone(), Arc::new(parse_declaration(&path, text)?));
-        }
-        self.sources.insert(path.clone(), Source { path, text: text.into(), kind });
+        self.add(snippet);
         Ok(())
+    }
+
+    fn insert_built_in(&mut self, path: &str, text: &str) -> Result<(), Diagnostic> {
+        if text.starts_with("//! slot: ") {
+            self.add(Snippet::parse(path, text, SourceKind::BuiltIn)?);
+        } else {
+            let path: Arc<str> = path.into();
+            self.sources.insert(path.clone(), Source { path, text: text.into(), kind: SourceKind::BuiltIn });
+        }
+        Ok(())
+    }
+
+    fn add(&mut self, snippet: Snippet) {
+        let (path, text, kind) = (snippet.path().clone(), snippet.text().clone(), snippet.kind());
+        self.sources.insert(path.clone(), Source { path: path.clone(), text, kind });
+        self.snippets.insert(path, snippet);
     }
 
     /// The file with this path.
@@ -131,18 +118,28 @@ impl Library {
     }
 
     /// The declaration of the snippet with this path.
-    pub fn declaration(&self, path: &str) -> Option<&Arc<Declaration>> {
-        self.snippets.get(path)
+    pub fn declaration(&self, path: &str) -> Option<&Declaration> {
+        self.snippets.get(path).map(Snippet::declaration)
     }
 
-    /// Path of the snippet of a slot by id (the file name without extension).
+    /// The snippet of a slot by id (the file name without extension).
+    pub fn snippet(&self, slot: Slot, id: &str) -> Option<&Snippet> {
+        self.snippets.values().find(|snippet| snippet.declaration().slot == slot && snippet.id() == id)
+    }
+
+    /// Path of the snippet of a slot by id.
     pub fn path(&self, slot: Slot, id: &str) -> Option<Arc<str>> {
-        self.snippets(slot).find(|(path, _)| stem(path) == id).map(|(path, _)| path.clone())
+        self.snippet(slot, id).map(|snippet| snippet.path().clone())
     }
 
-    /// Built-in and user snippets of a slot with their paths, sorted; edited texts are not offered for choice.
-    pub fn snippets(&self, slot: Slot) -> impl Iterator<Item = (&Arc<str>, &Arc<Declaration>)> {
-        self.snippets.iter().filter(move |(path, declaration)| declaration.slot == slot && !path.starts_with("edited/"))
+    /// Built-in and user snippets of a slot with their paths, sorted.
+    pub fn snippets(&self, slot: Slot) -> impl Iterator<Item = (&Arc<str>, &Declaration)> {
+        self.all(slot).map(|snippet| (snippet.path(), snippet.declaration()))
+    }
+
+    /// The same as values.
+    pub fn all(&self, slot: Slot) -> impl Iterator<Item = &Snippet> {
+        self.snippets.values().filter(move |snippet| snippet.declaration().slot == slot)
     }
 
     /// Id of a snippet: its file name without folder and extension.

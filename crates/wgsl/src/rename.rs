@@ -12,6 +12,8 @@ pub(crate) struct Renaming {
     names: BTreeMap<String, String>,
     /// Parameter -> field of the uniform struct, for `params.NAME`.
     parameters: BTreeMap<String, String>,
+    /// Whether members are renamed, too.
+    members: bool,
     /// Number of the first loop, when loops are to be counted.
     first_loop: Option<u32>,
 }
@@ -32,7 +34,7 @@ impl Renaming {
         Self {
             names: private.map(|name| (name.to_owned(), format!("{prefix}_{name}"))).collect(),
             parameters: parameters.iter().map(|name| (name.clone(), format!("{prefix}_{name}"))).collect(),
-            first_loop: None,
+            ..Self::default()
         }
     }
 
@@ -41,13 +43,21 @@ impl Renaming {
         Self { first_loop: Some(first), ..self }
     }
 
-    /// Identifiers that start with `OUT_` belong to one output.
-    pub fn output(text: &str, prefix: &str) -> Self {
-        let names = tokens(text).into_iter().filter_map(|token| Some((token.text, token.text.strip_prefix("OUT_")?)));
+    /// Identifiers that start with `mark` get `prefix` in its place, fields of structs, too.
+    pub fn marked(text: &str, mark: &str, prefix: &str) -> Self {
+        let names = tokens(text).into_iter().filter_map(|token| Some((token.text, token.text.strip_prefix(mark)?)));
         Self {
-            names: names.map(|(name, rest)| (name.to_owned(), format!("{prefix}_{rest}"))).collect(),
+            names: names.map(|(name, rest)| (name.to_owned(), format!("{prefix}{rest}"))).collect(),
+            members: true,
             ..Self::default()
         }
+    }
+
+    /// All names at module scope get `prefix`, and parameters their new fields.
+    pub fn prefixed(text: &str, prefix: &str, parameters: BTreeMap<String, String>) -> Self {
+        let names = module_scope_names(text).into_iter();
+        let names = names.map(|(name, _)| (name.to_owned(), format!("{prefix}{name}"))).collect();
+        Self { names, parameters, ..Self::default() }
     }
 
     /// Renames a whole text and returns its lines.
@@ -57,16 +67,16 @@ impl Renaming {
         let mut edits: Vec<(usize, usize, String)> = Vec::new();
         for (index, token) in list.iter().enumerate() {
             // A damaged text may even declare a keyword.
-            if token.kind != TokenKind::Identifier || LOOP_WORDS.contains(&token.text) || fields.contains(&token.start)
-            {
+            let is_field = !self.members && fields.contains(&token.start);
+            if token.kind != TokenKind::Identifier || LOOP_WORDS.contains(&token.text) || is_field {
                 continue;
             }
             let before = |back: usize| index.checked_sub(back).and_then(|at| list.get(at)).map(|token| token.text);
             let member = before(1) == Some(".");
             let new = match member {
                 true if before(2) == Some("params") => self.parameters.get(token.text),
-                true => None,
-                false => self.names.get(token.text),
+                true if !self.members => None,
+                _ => self.names.get(token.text),
             };
             if let Some(new) = new {
                 edits.push((token.start, token.text.len(), new.clone()));

@@ -21,10 +21,26 @@ pub enum Slot {
     Refinement,
     /// Leaps over samples that cannot contribute.
     Skipping,
+    /// Tells places without a value. Filled by the program, as are all that follow.
+    Gaps,
+    /// Takes the gradient of each sample.
+    Slope,
+    /// Puts light on a classified sample, by way of [`Slot::Shading`].
+    Lighting,
+    /// Moves the lattice of samples.
+    Lattice,
+    /// Takes one sample after another.
+    Stepping,
+    /// Looks at how rays end.
+    Endings,
+    /// Counts rays and samples of the whole picture.
+    Statistics,
+    /// Stores the number of samples of each ray.
+    SampleMap,
 }
 
 impl Slot {
-    /// Every slot, in the order in which the loop meets them.
+    /// The slots that users fill, in the order in which the loop meets them.
     pub const ALL: [Slot; 7] = [
         Slot::Skipping,
         Slot::Sampling,
@@ -33,6 +49,18 @@ impl Slot {
         Slot::Shading,
         Slot::Refinement,
         Slot::Compositing,
+    ];
+
+    /// The slots that the program fills: what can be absent has a snippet that compiles to nothing.
+    pub const OF_PROGRAM: [Slot; 8] = [
+        Slot::Lattice,
+        Slot::Stepping,
+        Slot::Gaps,
+        Slot::Slope,
+        Slot::Lighting,
+        Slot::Endings,
+        Slot::Statistics,
+        Slot::SampleMap,
     ];
 
     /// Stable id, also the folder of the slot's built-in snippets.
@@ -45,12 +73,35 @@ impl Slot {
             Slot::Compositing => "compositing",
             Slot::Refinement => "refinement",
             Slot::Skipping => "skipping",
+            Slot::Gaps => "gaps",
+            Slot::Slope => "slope",
+            Slot::Lighting => "lighting",
+            Slot::Lattice => "lattice",
+            Slot::Stepping => "stepping",
+            Slot::Endings => "endings",
+            Slot::Statistics => "statistics",
+            Slot::SampleMap => "sample_map",
         }
+    }
+
+    /// Whether a ray needs but one of it, however many volumes and outputs there are.
+    pub fn is_filled_once(self) -> bool {
+        !matches!(
+            self,
+            Slot::Sampling
+                | Slot::Gradient
+                | Slot::Classification
+                | Slot::Skipping
+                | Slot::Gaps
+                | Slot::Slope
+                | Slot::Lighting
+                | Slot::Compositing
+        )
     }
 
     /// The slot with this id.
     pub fn from_id(id: &str) -> Option<Slot> {
-        Slot::ALL.into_iter().find(|slot| slot.id() == id)
+        Slot::ALL.into_iter().chain(Slot::OF_PROGRAM).find(|slot| slot.id() == id)
     }
 }
 

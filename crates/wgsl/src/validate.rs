@@ -85,9 +85,9 @@ fn locate(
             let line = assembled.text.lines().nth(location.line_number as usize - 1).unwrap_or_default();
             let bytes = (location.line_position as usize).saturating_sub(1).min(line.len());
             let column = line.get(..bytes).map_or(location.line_position, |before| before.chars().count() as u32 + 1);
-            let text = library.source(&origin.file).map_or("", |source| &source.text);
+            let text = assembled.source(library, &origin.file);
             Diagnostic::new(&origin.file, origin.line, origin.column(column), message).with_excerpt(text)
         }
-        None => Diagnostic::new("ray traversal", 0, 0, message),
+        None => Diagnostic::new("shader", 0, 0, message),
     }
 }

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::thread;
 
-use rayloom_wgsl::{Choice, Library, Slot, assemble, legal_choices, validate};
+use rayloom_wgsl::{Choice, Library, Skeleton, Slot, SourceChoice, assemble, legal_choices, validate};
 
-fn validate_all(library: &Library, choices: &[Choice]) -> Vec<String> {
+fn validate_all(library: &Library, skeleton: &Skeleton, choices: &[Choice]) -> Vec<String> {
     let workers = thread::available_parallelism().map_or(1, |count| count.get());
     let chunk = choices.len().div_ceil(workers).max(1);
     thread::scope(|scope| {
@@ -13,9 +13,12 @@ fn validate_all(library: &Library, choices: &[Choice]) -> Vec<String> {
             .chunks(chunk)
             .map(|part| {
                 scope.spawn(move || {
-                    let check = |choice: &Choice| match assemble(library, choice) {
-                        Ok(assembled) => validate(library, assembled).err().map(|problem| problem.to_string()),
-                        Err(problems) => problems.first().map(|problem| problem.to_string()),
+                    let check = |choice: &Choice| {
+                        let checked = choice.check(library).expect("legal");
+                        match assemble(library, skeleton, &checked) {
+                            Ok(assembled) => validate(library, assembled).err().map(|problem| problem.to_string()),
+                            Err(problems) => problems.first().map(|problem| problem.to_string()),
+                        }
                     };
                     part.iter()
                         .filter_map(|choice| check(choice).map(|problem| format!("{choice:?}\n{problem}")))
@@ -31,7 +34,7 @@ fn validate_all(library: &Library, choices: &[Choice]) -> Vec<String> {
 fn every_legal_combination_is_valid() {
     let library = Library::built_in().expect("built-in snippets declare themselves well");
     let choices: Vec<_> = legal_choices(&library).into_iter().collect();
-    let problems = validate_all(&library, &choices);
+    let problems = validate_all(&library, &Skeleton::TRAVERSAL, &choices);
     println!("validated {} combinations of one output", choices.len());
     assert!(
         problems.is_empty(),
@@ -46,8 +49,8 @@ fn every_legal_combination_is_valid() {
 #[test]
 fn every_set_of_outputs_is_valid_with_every_switch() {
     let library = Library::built_in().expect("built-in snippets declare themselves well");
-    let path = |slot, id: &str| library.path(slot, id).expect(id);
-    let outputs: Vec<_> = library.snippets(Slot::Compositing).map(|(path, _)| Some(path.clone())).collect();
+    let snippet = |slot, id: &str| (slot, library.snippet(slot, id).expect(id).clone());
+    let outputs: Vec<_> = library.all(Slot::Compositing).cloned().map(Some).collect();
     let mut choices = Vec::new();
     for (index, first) in outputs.iter().enumerate() {
         for second in outputs.iter().chain([&None]) {
@@ -59,38 +62,39 @@ fn every_set_of_outputs_is_valid_with_every_switch() {
                 ("voxel_color", "forward", "none"),
             ] {
                 for switches in 0..5u32 {
-                    choices.push(Choice {
+                    let source = SourceChoice {
                         snippets: BTreeMap::from([
-                            (Slot::Sampling, path(Slot::Sampling, "trilinear")),
-                            (Slot::Gradient, path(Slot::Gradient, gradient)),
-                            (Slot::Classification, path(Slot::Classification, classification)),
-                            (
-                                Slot::Shading,
-                                path(Slot::Shading, if switches & 1 == 0 { "none" } else { "blinn_phong" }),
-                            ),
-                            (Slot::Refinement, path(Slot::Refinement, "secant")),
-                            (Slot::Skipping, path(Slot::Skipping, skipping)),
+                            snippet(Slot::Sampling, "trilinear"),
+                            snippet(Slot::Gradient, gradient),
+                            snippet(Slot::Classification, classification),
+                            snippet(Slot::Skipping, skipping),
+                        ]),
+                        channel: switches % 4,
+                        channels: switches % 4 + 1,
+                        gaps: switches & 2 != 0,
+                        steps: switches == 1,
+                    };
+                    choices.push(Choice {
+                        sources: vec![source],
+                        snippets: BTreeMap::from([
+                            snippet(Slot::Shading, if switches & 1 == 0 { "none" } else { "blinn_phong" }),
+                            snippet(Slot::Refinement, "secant"),
                         ]),
                         outputs: [first.clone(), second.clone(), third.clone()],
                         early_termination: switches & 1 == 0,
                         statistics: switches & 2 == 0,
                         sample_map: switches & 1 == 0,
                         jitter: switches == 3,
-                        trace: switches == 4,
                         half_targets: switches & 2 != 0,
-                        gaps: switches & 2 != 0,
                         long_rays: switches == 2,
                         search: switches != 2,
-                        steps: switches == 1,
-                        channel: switches % 4,
-                        channels: switches % 4 + 1,
                     });
                 }
             }
         }
     }
     let legal: Vec<_> = choices.into_iter().filter(|choice| choice.check(&library).is_ok()).collect();
-    let problems = validate_all(&library, &legal);
+    let problems = validate_all(&library, &Skeleton::TRAVERSAL, &legal);
     println!("validated {} combinations of several outputs", legal.len());
     assert!(
         problems.is_empty(),
@@ -103,34 +107,21 @@ fn every_set_of_outputs_is_valid_with_every_switch() {
 }
 
 #[test]
-fn the_ray_probe_leaves_no_trace_in_other_shaders() {
+fn every_combination_can_be_probed() {
     let library = Library::built_in().expect("built-in snippets declare themselves well");
     let choices: Vec<_> = legal_choices(&library).into_iter().step_by(101).collect();
-    let traced: Vec<_> = choices.iter().map(|choice| Choice { trace: true, ..choice.clone() }).collect();
-    assert_eq!(validate_all(&library, &traced), Vec::<String>::new());
-    for choice in choices {
-        let text = assemble(&library, &choice).expect("legal").text;
-        assert!(!text.contains("trace"), "{text}");
-        let traced = assemble(&library, &Choice { trace: true, ..choice }).expect("legal").text;
-        // The probe adds lines and takes away none but the head of the entry point and what writes the picture.
-        let mut kept = traced.lines();
-        let mut found = |line: &&str| {
-            let mut rest = kept.clone();
-            let found = rest.any(|other| other == *line);
-            if found {
-                kept = rest;
-            }
-            found
-        };
-        let lost: Vec<_> = text.lines().filter(|line| !found(line)).collect();
-        let expected = [
-            "@compute @workgroup_size(8, 8)",
-            "fn traverse(",
-            "    let id = ",
-            "    textureStore(",
-            "    textureStore(",
-        ];
-        assert_eq!(lost.len(), expected.len(), "{lost:#?}");
-        assert!(lost.iter().zip(expected).all(|(line, start)| line.starts_with(start)), "{lost:#?}");
+    assert_eq!(validate_all(&library, &Skeleton::PROBE, &choices), Vec::<String>::new());
+}
+
+/// What users see of the loop: the slots in use, and neither the probe nor anything else that was not asked for.
+#[test]
+fn nothing_that_was_not_asked_for_is_in_the_text() {
+    let library = Library::built_in().expect("built-in snippets declare themselves well");
+    for choice in legal_choices(&library).into_iter().step_by(101) {
+        let checked = choice.check(&library).expect("legal");
+        let text = assemble(&library, &Skeleton::TRAVERSAL, &checked).expect("legal").text;
+        for absent in ["trace", "counters", "overrun", "gap_map", "sample_map:", "v2_", "SRC_", "OUT_"] {
+            assert!(!text.contains(absent), "{absent}\n{text}");
+        }
     }
 }

@@ -3,11 +3,16 @@
 use std::collections::BTreeMap;
 
 use proptest::prelude::*;
-use rayloom_wgsl::{Choice, Library, Slot, assemble, validate};
+use rayloom_wgsl::{Assembled, Choice, Diagnostic, Library, Skeleton, Slot, Snippet, validate};
+
+/// The traversal of a legal choice.
+fn assemble(library: &Library, choice: &Choice) -> Result<Assembled, Vec<Diagnostic>> {
+    rayloom_wgsl::assemble(library, &Skeleton::TRAVERSAL, &choice.check(library).expect("legal"))
+}
 
 /// A choice of built-in snippets.
 fn choice(library: &Library, slots: &[(Slot, &str)], output: &str) -> Choice {
-    let path = |slot, id: &str| library.path(slot, id).unwrap_or_else(|| panic!("{slot} {id}"));
+    let snippet = |slot, id: &str| library.snippet(slot, id).unwrap_or_else(|| panic!("{slot} {id}")).clone();
     let defaults = [
         (Slot::Sampling, "filtered"),
         (Slot::Gradient, "central"),
@@ -16,9 +21,9 @@ fn choice(library: &Library, slots: &[(Slot, &str)], output: &str) -> Choice {
         (Slot::Refinement, "linear"),
         (Slot::Skipping, "none"),
     ];
-    let mut snippets: BTreeMap<_, _> = defaults.into_iter().map(|(slot, id)| (slot, path(slot, id))).collect();
-    snippets.extend(slots.iter().map(|&(slot, id)| (slot, path(slot, id))));
-    Choice { early_termination: true, ..Choice::of(snippets, [Some(path(Slot::Compositing, output)), None, None]) }
+    let mut snippets: BTreeMap<_, _> = defaults.into_iter().map(|(slot, id)| (slot, snippet(slot, id))).collect();
+    snippets.extend(slots.iter().map(|&(slot, id)| (slot, snippet(slot, id))));
+    Choice { early_termination: true, ..Choice::of(snippets, [Some(snippet(Slot::Compositing, output)), None, None]) }
 }
 
 /// The text of a built-in snippet.
@@ -28,16 +33,19 @@ fn text(library: &Library, path: &str) -> String {
 
 /// Uses `text` as this processor's own snippet and returns what is wrong with it.
 fn problem(slot: Slot, text: &str) -> Option<String> {
-    let mut library = Library::built_in().expect("built-in snippets");
-    let path = match library.add_edited(slot.id(), slot, text) {
-        Ok(path) => path,
+    let library = Library::built_in().expect("built-in snippets");
+    let edited = match Snippet::edited(slot.id(), slot, text) {
+        Ok(edited) => edited,
         Err(problem) => return Some(problem.to_string()),
     };
     let mut choice = choice(&library, &[], "dvr");
     if slot == Slot::Compositing {
-        choice.outputs[0] = Some(path);
+        choice.outputs[0] = Some(edited);
     } else {
-        choice.snippets.insert(slot, path);
+        choice.put(edited);
+    }
+    if let Err(problems) = choice.check(&library) {
+        return Some(problems.iter().map(|problem| format!("shader: {problem}")).collect::<Vec<_>>().join("\n"));
     }
     match assemble(&library, &choice) {
         Ok(assembled) => validate(&library, assembled).err().map(|problem| problem.to_string()),
@@ -176,7 +184,7 @@ proptest! {
         let end = (start + cut).min(original.len());
         let damaged: String = original[..start].iter().copied().chain(junk.chars()).chain(original[end..].iter().copied()).collect();
         if let Some(message) = problem(slot, &damaged) {
-            prop_assert!(message.contains(".wgsl") || message.contains("<generated") || message.starts_with("ray traversal: "), "{message}");
+            prop_assert!(message.contains(".wgsl") || message.contains("<generated") || message.starts_with("shader: "), "{message}");
         }
     }
 }
@@ -289,7 +297,7 @@ fn monstrous_texts_are_refused_in_time() {
     ] {
         if let Some(message) = shading_with("", &body) {
             assert!(
-                message.starts_with("edited/shading.wgsl:") || message.starts_with("ray traversal"),
+                message.starts_with("edited/shading.wgsl:") || message.starts_with("shader: "),
                 "{message:.200}"
             );
         }
@@ -347,11 +355,11 @@ fn files_that_are_no_text_are_named_with_the_place() {
 
 #[test]
 fn loops_of_a_users_own_are_bounded_and_keep_their_places() {
-    let mut library = Library::built_in().expect("built-in snippets");
+    let library = Library::built_in().expect("built-in snippets");
     let text = "//! slot: shading\nfn shade(medium: vec4f, surface: Surface) -> vec4f {\n    var n = 0u;\n    loop { n += 1u; while n > 3u { n -= 1u; } }\n    for (var i = 0u; i < vec2u(4u).x; i++) { n += i; }\n    return medium * f32(n);\n}\n";
-    let edited = library.add_edited("shading", Slot::Shading, text).expect("a declaration");
+    let edited = Snippet::edited("shading", Slot::Shading, text).expect("a declaration");
     let mut choice = choice(&library, &[(Slot::Classification, "transfer_function")], "dvr");
-    choice.snippets.insert(Slot::Shading, edited.clone());
+    choice.put(edited);
     let assembled = assemble(&library, &choice).expect("assembled");
     let places: Vec<_> = assembled.loops.iter().map(|(file, line, column)| (&**file, *line, *column)).collect();
     assert_eq!(places, [("edited/shading.wgsl", 4, 5), ("edited/shading.wgsl", 4, 21), ("edited/shading.wgsl", 5, 5)]);
@@ -360,8 +368,8 @@ fn loops_of_a_users_own_are_bounded_and_keep_their_places() {
 
     // An error behind a loop on the same line is still told at its own column.
     let broken = text.replace("n -= 1u; } }", "n -= 1u; } m }");
-    let edited = library.add_edited("shading", Slot::Shading, &broken).expect("a declaration");
-    choice.snippets.insert(Slot::Shading, edited);
+    let edited = Snippet::edited("shading", Slot::Shading, &broken).expect("a declaration");
+    choice.put(edited);
     let problem = validate(&library, assemble(&library, &choice).expect("assembled")).expect_err("broken");
     assert_eq!((problem.line, problem.column), (4, 49), "{problem}");
 }

@@ -1,0 +1,16 @@
+//! slot: stepping
+//! help: Every sample, classified and lit where it is visible.
+
+fn next_sample(ray: Ray, walk: ptr<function, Walk>, s: ptr<function, Sample>) -> bool {
+    if !advance(ray, walk) {
+        return false;
+    }
+    *s = sample_at(ray, place_of(ray, (*walk).index));
+    link(walk, s);
+    (*s).medium = classify(*s);
+    if (*s).known && (*s).medium.w > 0.0 {
+        (*s).medium = lit((*s).medium, ray, (*s).position, (*s).voxel, frame.light_direction);
+        (*walk).contributing += 1u;
+    }
+    return true;
+}
