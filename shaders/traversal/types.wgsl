@@ -40,8 +40,6 @@ struct Source {
     gradient_scale: f32,
     /// Bricks of the skipping map per unit of volume coordinates.
     brick_scale: vec3f,
-    /// Factor of the extinction.
-    weight: f32,
     /// Smallest label, and the span of values that the label texture's 0..1 stands for.
     label_minimum: f32,
     label_span: f32,

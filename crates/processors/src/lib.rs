@@ -23,6 +23,7 @@ mod process;
 mod ray_traversal;
 mod registry;
 mod slice_view;
+mod step;
 pub mod types;
 mod view;
 mod volume_generator;
@@ -39,5 +40,6 @@ pub use ray_traversal::{
     Trace, TraceOutput, TraceSample, reload_snippets, save_user_snippet, snippet_library, snippet_revision, user_folder,
 };
 pub use registry::{processors, registry};
+pub use step::step_length;
 pub use view::{View, same_box};
 pub use volume_texture::{GpuVolume, Storage};

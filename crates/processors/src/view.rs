@@ -80,6 +80,11 @@ impl View {
         (near, (high + air).max(near + extent))
     }
 
+    /// View depth of the planes on which rays begin and end, world units.
+    pub fn depths(&self) -> [f64; 2] {
+        [self.near, self.far]
+    }
+
     /// View depth of a point in volume coordinates: its distance from the eye along the viewing direction, world units.
     pub fn depth(&self, p: DVec3) -> f64 {
         let [_, _, forward] = self.camera.basis();

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use rayloom_network::{Network, Processor, PropertyKind, closest, not_ready};
 use rayloom_processors::snippet_library;
-use rayloom_wgsl::{Library, Slot};
+use rayloom_wgsl::{Slot, Snippet};
 
 use crate::failure::Failure;
 use crate::network_file;
@@ -70,13 +70,12 @@ fn unknown_snippet(slot: &str, id: &str) -> Option<String> {
     if library.path(slot, id).is_some() {
         return None;
     }
-    let known: Vec<&str> = library.snippets(slot).map(|(path, _)| Library::id(path)).collect();
+    let known: Vec<&str> = library.all(slot).map(Snippet::id).collect();
     let near = closest(id, known.iter().copied());
     let (lead, names) = if near.is_empty() { ("there are", known) } else { ("did you mean", near) };
     Some(format!("there is no {slot} snippet `{id}`; {lead} {}", names.join(", ")))
 }
 
 fn malformed_text(slot: &str, place: &str, text: &str) -> Option<String> {
-    let (library, _) = snippet_library();
-    Library::clone(&library).add_edited(place, Slot::from_id(slot)?, text).err().map(|problem| problem.to_string())
+    Snippet::edited(place, Slot::from_id(slot)?, text).err().map(|problem| problem.to_string())
 }

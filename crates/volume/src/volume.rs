@@ -237,6 +237,15 @@ impl Volume {
         DVec3::new(m.x_axis.length(), m.y_axis.length(), m.z_axis.length())
     }
 
+    /// The edge of a cube as large as a voxel, world units.
+    pub fn mean_spacing(&self) -> f64 {
+        // Factor by factor, since the determinant of tiny and huge voxels leaves f64's range long before their edges do.
+        let spacing = self.spacing();
+        let axes = self.index_to_world.matrix3;
+        let unit = DMat3::from_cols(axes.x_axis / spacing.x, axes.y_axis / spacing.y, axes.z_axis / spacing.z);
+        spacing.x.cbrt() * spacing.y.cbrt() * spacing.z.cbrt() * unit.determinant().abs().cbrt()
+    }
+
     /// The dimensions as a vector.
     pub fn dims_f64(&self) -> DVec3 {
         DVec3::from_array(self.dims.map(f64::from))

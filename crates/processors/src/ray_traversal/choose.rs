@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use rayloom_network::{Job, ProcessError};
 use rayloom_volume::VolumeRole;
-use rayloom_wgsl::{Choice, Library, MAX_OUTPUTS, Slot};
+use rayloom_wgsl::{Checked, Choice, Library, MAX_OUTPUTS, Slot, Snippet, SourceChoice};
 
 use super::long_rays;
 use super::memory::Memory;
@@ -17,9 +17,12 @@ use crate::{Context, Data};
 
 /// What will be assembled.
 pub(super) struct Plan<'a> {
-    /// The snippets, with the edited texts of this processor.
-    pub library: Library,
+    /// Where snippets and what they include come from.
+    pub library: Arc<Library>,
+    /// What was chosen.
     pub choice: Choice,
+    /// The same, checked, with what the program puts in.
+    pub checked: Checked,
     /// The channel of the volume that is classified.
     pub channel: u32,
     /// Samples that the device lets one ray take, where it has a limit.
@@ -31,69 +34,75 @@ pub(super) struct Plan<'a> {
 }
 
 pub(super) fn plan<'a>(
-    library: &Library,
+    library: Arc<Library>,
     context: &Context,
     job: &Job<'_, Data>,
     inputs: &Inputs<'a>,
     memory: &mut Memory,
     notes: &mut Vec<String>,
 ) -> Result<Plan<'a>, ProcessError> {
-    let mut library = library.clone();
     let volume = &inputs.volume.volume;
     let channel = channel(job, inputs)?;
-    let steps = long_rays::most_steps(volume, job.properties)?;
-    let mut snippets = BTreeMap::new();
-    let mut outputs: [Option<Arc<str>>; MAX_OUTPUTS] = Default::default();
-    // Samples are those that the first image takes where no other is wanted.
-    let only_samples = !OUTPORTS.iter().any(|outport| job.wants(outport));
-    for place in PLACES {
-        match place.output {
-            Some(output) if !(job.wants(OUTPORTS[output]) || only_samples && output == 0) => {}
-            Some(output) => outputs[output] = place.path(&mut library, job.properties)?,
-            None => {
-                snippets.extend(place.path(&mut library, job.properties)?.map(|path| (place.slot, path)));
-            }
-        }
-    }
+    let steps = long_rays::most_steps(inputs.view, volume, job.properties)?;
+    let (snippets, outputs) = chosen(&library, job)?;
     let mut choice = Choice {
-        snippets,
-        outputs,
         early_termination: job.properties.f64("termination_error")? > 0.0,
         statistics: context.count_samples,
         sample_map: job.wants(SAMPLES),
         jitter: job.properties.bool("jitter")?,
-        trace: false,
         half_targets: job.properties.text("target")? == "16-bit",
-        gaps: memory.gaps.of(volume, channel).is_some(),
         long_rays: steps > long_rays::LONG,
         search: context.gpu.loop_rounds().is_none_or(|rounds| long_rays::may_search(rounds, steps)),
-        steps: false,
-        channel,
-        channels: volume.channels,
+        ..Choice::of(snippets, outputs)
     };
-    fit_sampling(&library, context, inputs, &mut choice, notes)?;
+    if let Some(source) = choice.sources.first_mut() {
+        source.gaps = memory.gaps.of(volume, channel).is_some();
+        (source.channel, source.channels) = (channel, volume.channels);
+        fit_sampling(&library, context, inputs, source, notes)?;
+        let classification = source.snippets.get(&Slot::Classification);
+        if classification.is_some_and(|snippet| snippet.reads("transfer_function")) {
+            let function = job.properties.transfer_function("transfer_function")?;
+            source.steps = has_steps(function, volume.ranges()[channel as usize]);
+        }
+    }
     let (skipping, skipping_why) = fit_skipping(&library, job, inputs, memory, &mut choice, channel)?;
-    let features = choice.check(&library).map_err(|problems| {
+    let checked = choice.check(&library).map_err(|problems| {
         ProcessError::new(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
     })?;
-    if features.has("gradient_volume") && volume.role != VolumeRole::GradientAndValue {
+    if checked.features.has("gradient_volume") && volume.role != VolumeRole::GradientAndValue {
         return Err(ProcessError::new(format!(
             "the gradient is to be read from the volume, but `{}` holds none; insert a gradient volume processor or choose another gradient",
             volume.name
         )));
     }
-    if features.has("transfer_function") {
-        choice.steps =
-            has_steps(job.properties.transfer_function("transfer_function")?, volume.ranges()[channel as usize]);
-    }
-    let rounds = context.gpu.loop_rounds();
-    let most_samples = rounds.map(|rounds| long_rays::most_samples(rounds, &library, &choice));
+    let most_samples = context.gpu.loop_rounds().map(|rounds| long_rays::most_samples(rounds, &checked));
     if let Some(most) = most_samples.filter(|most| steps > f64::from(*most)) {
         notes.push(format!(
             "This device's driver ends long loops, so a ray takes at most {most} samples; longer rays take longer steps."
         ));
     }
-    Ok(Plan { library, choice, channel, most_samples, skipping, skipping_why })
+    Ok(Plan { library, choice, checked, channel, most_samples, skipping, skipping_why })
+}
+
+/// The snippets by slot, and those of the outputs.
+type Chosen = (BTreeMap<Slot, Snippet>, [Option<Snippet>; MAX_OUTPUTS]);
+
+/// The snippets that the properties choose, for the outputs that something wants.
+fn chosen(library: &Library, job: &Job<'_, Data>) -> Result<Chosen, ProcessError> {
+    let mut snippets = BTreeMap::new();
+    let mut outputs: [Option<Snippet>; MAX_OUTPUTS] = Default::default();
+    // Samples are those that the first image takes where no other is wanted.
+    let only_samples = !OUTPORTS.iter().any(|outport| job.wants(outport));
+    for place in PLACES {
+        match place.output {
+            Some(output) if !(job.wants(OUTPORTS[output]) || only_samples && output == 0) => {}
+            Some(output) => outputs[output] = place.snippet(library, job.properties)?,
+            None => {
+                snippets.extend(place.snippet(library, job.properties)?.map(|snippet| (place.slot, snippet)));
+            }
+        }
+    }
+    Ok((snippets, outputs))
 }
 
 /// The channel to classify: that of the property, or the value beside a gradient.
@@ -117,17 +126,15 @@ fn fit_sampling(
     library: &Library,
     context: &Context,
     inputs: &Inputs<'_>,
-    choice: &mut Choice,
+    source: &mut SourceChoice,
     notes: &mut Vec<String>,
 ) -> Result<(), ProcessError> {
-    let Some(declaration) = choice.snippets.get(&Slot::Sampling).and_then(|path| library.declaration(path)) else {
-        return Ok(());
-    };
-    if declaration.reads.contains("prefiltered") {
-        (choice.channel, choice.channels) = (0, 1);
-    } else if declaration.reads.contains("filtering") && !inputs.volume.on_gpu(&context.gpu)?.filterable {
-        let path = library.path(Slot::Sampling, "trilinear");
-        choice.snippets.extend(path.map(|path| (Slot::Sampling, path)));
+    let Some(sampling) = source.snippets.get(&Slot::Sampling) else { return Ok(()) };
+    if sampling.reads("prefiltered") {
+        (source.channel, source.channels) = (0, 1);
+    } else if sampling.reads("filtering") && !inputs.volume.on_gpu(&context.gpu)?.filterable {
+        let floats = library.snippet(Slot::Sampling, "trilinear").cloned();
+        source.snippets.extend(floats.map(|snippet| (Slot::Sampling, snippet)));
         notes.push("This device cannot filter the volume's format; it is interpolated in the shader.".into());
     }
     Ok(())
@@ -144,22 +151,23 @@ fn fit_skipping<'a>(
     channel: u32,
 ) -> Result<(Option<Question<'a>>, String), ProcessError> {
     let volume = &inputs.volume.volume;
-    if choice.snippets.contains_key(&Slot::Skipping) {
-        // `none` asks nothing; an illegal choice is refused by the check that follows.
-        let question = Question::of(library, choice, job.properties, volume, channel)?;
-        let absent =
-            choice.snippets.get(&Slot::Skipping).and_then(|path| library.declaration(path)).is_some_and(|d| d.absent);
-        let why = if absent { "`none` is chosen" } else { "chosen" };
-        return Ok((question.filter(|_| !absent), why.into()));
+    if let Some(skipping) = choice.snippet(Slot::Skipping) {
+        if skipping.declaration().absent {
+            return Ok((None, "`none` is chosen".into()));
+        }
+        // An illegal choice is refused by the check that follows.
+        return Ok((Question::of(choice, job.properties, volume, channel)?, "chosen".into()));
     }
     let nothing = |why: String| Ok((None, why));
-    let Some(path) = library.path(Slot::Skipping, "distance") else { return nothing("there is no snippet".into()) };
-    let mut trial = choice.clone();
-    trial.snippets.insert(Slot::Skipping, path);
-    if let Err(problems) = trial.check(library) {
+    let Some(distance) = library.snippet(Slot::Skipping, "distance") else {
+        return nothing("there is no snippet".into());
+    };
+    let mut skipped = choice.clone();
+    skipped.put(distance.clone());
+    if let Err(problems) = skipped.check(library) {
         return nothing(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join(" "));
     }
-    let Some(question) = Question::of(library, &trial, job.properties, volume, channel)? else {
+    let Some(question) = Question::of(&skipped, job.properties, volume, channel)? else {
         return nothing("nothing tells which values show".into());
     };
     let occupied = question.map(&mut memory.skipping, &mut memory.splines)?.occupied;
@@ -169,6 +177,6 @@ fn fit_skipping<'a>(
             "{share:.0} % of the bricks may show something, more than {most:.0} %: leaping costs more"
         ));
     }
-    *choice = trial;
+    *choice = skipped;
     Ok((Some(question), format!("{share:.0} % of the bricks may show something, no more than {most:.0} %")))
 }

@@ -80,7 +80,8 @@ fn snippet(library: &Library, place: &Place) -> PropertyDecl {
         (Slot::Compositing, Some(2)) => "first_hit_normal",
         (Slot::Compositing, _) => "dvr",
         (Slot::Refinement, _) => "secant",
-        (Slot::Skipping, _) => "auto",
+        // Skipping; the program's own slots have no property.
+        _ => "auto",
     };
     let mut help = match place.slot {
         Slot::Skipping => "auto: chosen by the share of bricks in which anything is visible.".to_owned(),

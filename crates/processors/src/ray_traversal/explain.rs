@@ -1,31 +1,11 @@
 //! Why the ray loop is as it is: told from the plan and the shader that ran.
 
 use rayloom_network::{ProcessError, Properties};
-use rayloom_wgsl::{Library, Slot};
+use rayloom_wgsl::{Slot, SourceKind};
 
 use super::choose::Plan;
 use super::dispatch::Pass;
 use crate::explain::{Explanation, Role};
-
-/// What a global variable of the shader is for.
-pub(super) fn purpose(name: &str) -> &'static str {
-    match name {
-        "frame" => "what all rays share: matrices, step, light",
-        "params" => "numbers of the snippets; changing one assembles nothing",
-        "volume" => "what is sampled",
-        "linear_sampler" => "the sampling snippet leaves interpolation to the texture unit",
-        "entry_points" | "exit_points" => "where rays begin and end",
-        "transfer_table" => "classification looks values up: emission and extinction a reference length",
-        "transfer_table_2d" => "classification looks values and gradient magnitudes up",
-        "preintegrated_table" => "classification looks up pairs of values",
-        "label_volume" | "label_table" => "classification goes by labels",
-        "skip_map" => "tells empty bricks",
-        "gap_map" => "tells voxels without a value, which are not drawn",
-        "counters" => "samples are counted",
-        "sample_map" => "the samples of every ray are wanted",
-        _ => "the picture and its depth",
-    }
-}
 
 impl Pass<'_> {
     fn has(&self, feature: &str) -> bool {
@@ -58,9 +38,9 @@ impl Pass<'_> {
 
     /// A slot that is filled at most once.
     fn slot(&self, slot: Slot) -> Explanation {
-        let chosen = match self.plan.choice.snippets.get(&slot) {
-            Some(path) if path.starts_with("edited/") => "text of your own",
-            Some(path) => Library::id(path),
+        let chosen = match self.plan.choice.snippet(slot) {
+            Some(snippet) if snippet.kind() == SourceKind::Edited => "text of your own",
+            Some(snippet) => snippet.id(),
             None => "none",
         };
         if self.has(&format!("slot_{slot}")) {
@@ -95,9 +75,9 @@ impl Pass<'_> {
 
     fn skipping(&self) -> Explanation {
         let Plan { choice, skipping_why, .. } = self.plan;
-        match choice.snippets.get(&Slot::Skipping).filter(|_| self.has("skipping")) {
-            Some(path) => {
-                Explanation::new(Role::Computed, format!("skipping `{}`", Library::id(path)), skipping_why.clone())
+        match choice.snippet(Slot::Skipping).filter(|_| self.has("skipping")) {
+            Some(snippet) => {
+                Explanation::new(Role::Computed, format!("skipping `{}`", snippet.id()), skipping_why.clone())
             }
             None => Explanation::new(Role::LeftOut, "skipping structure", skipping_why.clone()),
         }
@@ -105,9 +85,8 @@ impl Pass<'_> {
 
     /// Sums of faint samples, where a compositing snippet keeps them.
     fn faint_sums(&self) -> Option<Explanation> {
-        let Plan { library, choice, .. } = self.plan;
-        let keeps = |path| library.source(path).is_some_and(|source| source.text.contains("#if long_rays"));
-        choice.outputs.iter().flatten().any(|path| keeps(path)).then(|| match self.has("long_rays") {
+        let mut outputs = self.plan.choice.outputs.iter().flatten();
+        outputs.any(|output| output.text().contains("#if long_rays")).then(|| match self.has("long_rays") {
             true => Explanation::new(Role::Computed, "sums of faint samples", "rays may take more than 8192 samples"),
             false => Explanation::new(Role::LeftOut, "sums of faint samples", "no ray takes more than 8192 samples"),
         })

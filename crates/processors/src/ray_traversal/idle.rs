@@ -11,9 +11,9 @@ use super::snippets::PLACES;
 /// Ids of the properties that the assembled shader does not depend on while only the outports in `used` are. Empty where the
 /// choice is refused: what has to be changed then is not known.
 pub(super) fn idle(library: &Library, properties: &Properties, used: &BTreeSet<String>) -> BTreeSet<String> {
-    let mut library = library.clone();
-    let Some(choice) = choice(&mut library, properties, used) else { return BTreeSet::new() };
-    let Ok(features) = choice.check(&library) else { return BTreeSet::new() };
+    let Some(choice) = choice(library, properties, used) else { return BTreeSet::new() };
+    let Ok(checked) = choice.check(library) else { return BTreeSet::new() };
+    let features = checked.features;
     let skips = properties.text("skipping").is_ok_and(|id| id != "none");
     let jitters = properties.bool("jitter").unwrap_or(false);
     let lit = features.has("light");
@@ -49,18 +49,18 @@ fn reads(features: &Features, word: &str) -> bool {
 }
 
 /// The choice of snippets, as far as it does not depend on data. `None` where a snippet is unknown or its text broken.
-fn choice(library: &mut Library, properties: &Properties, used: &BTreeSet<String>) -> Option<Choice> {
+fn choice(library: &Library, properties: &Properties, used: &BTreeSet<String>) -> Option<Choice> {
     let nothing_used = !OUTPORTS.iter().any(|outport| used.contains(*outport));
     let mut snippets = BTreeMap::new();
     let mut outputs: [_; MAX_OUTPUTS] = Default::default();
     for place in PLACES {
         match place.output {
-            Some(0) if nothing_used => outputs[0] = place.path(library, properties).ok()?,
+            Some(0) if nothing_used => outputs[0] = place.snippet(library, properties).ok()?,
             Some(output) if used.contains(OUTPORTS[output]) => {
-                outputs[output] = place.path(library, properties).ok()?
+                outputs[output] = place.snippet(library, properties).ok()?
             }
             Some(_) => {}
-            None => snippets.extend(place.path(library, properties).ok()?.map(|path| (place.slot, path))),
+            None => snippets.extend(place.snippet(library, properties).ok()?.map(|snippet| (place.slot, snippet))),
         }
     }
     Some(Choice::of(snippets, outputs))

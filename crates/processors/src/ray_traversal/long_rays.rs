@@ -2,7 +2,10 @@
 
 use rayloom_network::{ProcessError, Properties};
 use rayloom_volume::Volume;
-use rayloom_wgsl::{Choice, Library, Slot, Termination, has_loops};
+use rayloom_wgsl::{Checked, Slot, Snippet, Termination, has_loops};
+
+use super::frame::diagonal;
+use crate::{View, step_length};
 
 /// Steps of a ray beyond which the rounding of sums of faint samples shows: 8192 additions of equal numbers are off by 8192 / 2^25,
 /// a sixteenth of a grey level in the worst case.
@@ -13,8 +16,8 @@ const LANES: f64 = 8.0;
 const SURFACES: u32 = 3;
 
 /// Steps of the longest ray: along the diagonal of the volume.
-pub(super) fn most_steps(volume: &Volume, properties: &Properties) -> Result<f64, ProcessError> {
-    Ok(volume.dims_f64().length() * properties.f64("sampling_rate")?)
+pub(super) fn most_steps(view: &View, volume: &Volume, properties: &Properties) -> Result<f64, ProcessError> {
+    Ok(diagonal(volume) / step_length(view, volume, properties.f64("sampling_rate")?))
 }
 
 /// Whether rays of so many steps may look for visible samples in a loop of its own where a driver ends all loops after `rounds`.
@@ -25,15 +28,14 @@ pub(super) fn may_search(rounds: u32, steps: f64) -> bool {
 }
 
 /// The samples that a ray may take where a driver ends all loops of a ray, without a word, after `rounds`.
-pub(super) fn most_samples(rounds: u32, library: &Library, choice: &Choice) -> u32 {
-    let refinement = choice.snippets.get(&Slot::Refinement).and_then(|path| library.source(path));
-    let loops = refinement.is_some_and(|source| has_loops(&source.text));
-    let outputs = choice.outputs.iter().flatten().filter_map(|path| library.declaration(path));
-    let refined: Vec<_> = outputs.filter(|output| loops && output.reads.contains("refinement")).collect();
+pub(super) fn most_samples(rounds: u32, checked: &Checked) -> u32 {
+    let loops = checked.snippet(Slot::Refinement).is_some_and(|snippet| has_loops(snippet.text()));
+    let refined: Vec<&Snippet> =
+        checked.output_snippets().filter(|output| loops && output.reads("refinement")).collect();
     // The loop in a branch not taken is entered, too, for a round without effect.
     let a_sample = 1 + SURFACES * refined.len() as u32;
     // Four rounds for each of four thousand surfaces: a ray meets three in a cell at most, and hardly ever one in each.
-    let many = refined.iter().any(|output| output.termination != Termination::Hit);
+    let many = refined.iter().any(|output| output.declaration().termination != Termination::Hit);
     let spare = if many { rounds / 4 } else { 256 };
     (rounds - spare) / a_sample
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use rayloom_gpu::Texture;
 use rayloom_network::ProcessError;
 use rayloom_volume::{LabelTable, TransferFunction, TransferFunction2D, ValueRange};
-use rayloom_wgsl::{Assembled, Choice, Library, Validated, assemble, validate};
+use rayloom_wgsl::{Assembled, Checked, Library, Skeleton, Validated, assemble, validate};
 
 use super::bands::Pace;
 use super::gaps::GapMemory;
@@ -15,8 +15,8 @@ use super::snippets::shader_error;
 use super::splines::Splines;
 use super::trace::LastRun;
 
-/// A shader, for a choice and the texts in it that are not built in.
-pub(super) type ShaderMemo = Memo<(Choice, Vec<Arc<str>>), Arc<Validated>>;
+/// A shader, for what it was made from.
+pub(super) type ShaderMemo = Memo<Checked, Arc<Validated>>;
 
 /// Everything kept.
 #[derive(Default)]
@@ -39,12 +39,12 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// The shader for a choice: assembled and validated, or the one of the last run.
+    /// The shader for a checked choice: assembled and validated, or the one of the last run.
     ///
     /// # Errors
     /// What is wrong with the snippets, with file, line and column.
-    pub(super) fn shader(&mut self, library: &Library, choice: &Choice) -> Result<Arc<Validated>, ProcessError> {
-        let shader = shader(&mut self.validated, library, choice)?;
+    pub(super) fn shader(&mut self, library: &Library, checked: &Checked) -> Result<Arc<Validated>, ProcessError> {
+        let shader = shader(&mut self.validated, library, &Skeleton::TRAVERSAL, checked)?;
         self.last = Some(shader.clone());
         Ok(shader)
     }
@@ -67,14 +67,11 @@ impl Memory {
 pub(super) fn shader(
     memo: &mut ShaderMemo,
     library: &Library,
-    choice: &Choice,
+    skeleton: &Skeleton,
+    checked: &Checked,
 ) -> Result<Arc<Validated>, ProcessError> {
-    // A path stands for its text where that cannot change.
-    let paths = choice.snippets.values().chain(choice.outputs.iter().flatten());
-    let texts = paths.filter(|path| path.starts_with("edited/") || path.starts_with("user/"));
-    let texts = texts.filter_map(|path| Some(library.source(path)?.text.clone())).collect();
-    memo.get((choice.clone(), texts), || {
-        let assembled = assemble(library, choice).map_err(shader_error)?;
+    memo.get(checked.clone(), || {
+        let assembled = assemble(library, skeleton, checked).map_err(shader_error)?;
         validate(library, assembled).map(Arc::new).map_err(|problem| shader_error(vec![*problem]))
     })
 }

@@ -14,6 +14,7 @@ mod memo;
 mod memory;
 mod parameters;
 mod resample;
+mod resources;
 mod skipping;
 mod snippets;
 mod splines;
@@ -147,23 +148,22 @@ impl RayTraversal {
         memory.last_run = None;
         let inputs = Inputs::of(job)?;
         let mut notes = Vec::new();
-        let plan = choose::plan(&snippet_library().0, context, job, &inputs, memory, &mut notes)?;
-        let choose::Plan { library, choice, .. } = &plan;
-        let shader = memory.shader(library, choice)?;
+        let plan = choose::plan(snippet_library().0, context, job, &inputs, memory, &mut notes)?;
+        let shader = memory.shader(&plan.library, &plan.checked)?;
         let pass = dispatch::Pass { job, inputs: &inputs, plan: &plan, shader: &shader };
         let drawn = pass.run(context, memory)?;
         notes.extend(finite::notes(&context.gpu, &plan, &drawn.targets)?);
         memory.last_run = Some(trace::LastRun::new(job, &inputs, plan, drawn.inputs)?);
 
         let mut outputs = Outputs::new();
-        for (outport, target) in OUTPORTS.iter().zip(drawn.targets) {
+        for (outport, target) in OUTPORTS.iter().zip(drawn.targets.outputs) {
             if let Some(target) = target {
                 let (dispatch::Target { color, depth }, view) = resample::resample(context, job, target, inputs.view)?;
                 let image = Image { color, depth: Some(depth), kind: ImageKind::Color, view: Some(view) };
                 outputs = outputs.with(*outport, image.into());
             }
         }
-        if let Some(color) = drawn.samples {
+        if let Some(color) = drawn.targets.samples {
             let image = Image { color, depth: None, kind: ImageKind::Data, view: Some(inputs.view.clone()) };
             outputs = outputs.with(SAMPLES, image.into());
         }

@@ -9,15 +9,12 @@ use super::snippets::{PLACES, Place};
 /// Properties for the parameters of the snippets that `current` chooses. Places whose choice is broken have none;
 /// running the processor says why.
 pub(super) fn declarations(library: &Library, current: &Properties) -> Vec<PropertyDecl> {
-    let mut library = library.clone();
-    let mut found = Vec::new();
-    for place in &PLACES {
-        let Ok(Some(path)) = place.path(&mut library, current) else { continue };
-        if let Some(declaration) = library.declaration(&path) {
-            found.extend(declaration.parameters.iter().map(|parameter| property(place, parameter)));
-        }
-    }
-    found
+    let chosen = PLACES.iter().filter_map(|place| Some((place, place.snippet(library, current).ok()??)));
+    let properties = chosen.flat_map(|(place, snippet)| {
+        let parameters = snippet.declaration().parameters.iter();
+        parameters.map(|parameter| property(place, parameter)).collect::<Vec<_>>()
+    });
+    properties.collect()
 }
 
 fn id(place: &Place, parameter: &Parameter) -> String {
@@ -48,8 +45,8 @@ fn property(place: &Place, parameter: &Parameter) -> PropertyDecl {
 pub(super) fn bytes(shader: &Validated, properties: &Properties, range: ValueRange) -> Result<Vec<u8>, ProcessError> {
     let layout = &shader.interface.parameters;
     let mut bytes = vec![0; layout.size as usize];
-    for (field, prefix, parameter) in &shader.assembled.parameters {
-        let place = PLACES.iter().find(|place| place.prefix == prefix);
+    for (field, at, slot, parameter) in &shader.assembled.parameters {
+        let place = PLACES.iter().find(|place| place.is_at(*slot, *at));
         let offset = layout.offsets.iter().find(|(name, _)| name == field);
         let (Some(place), Some((_, offset))) = (place, offset) else { continue };
         let id = id(place, parameter);

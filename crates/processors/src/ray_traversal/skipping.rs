@@ -8,7 +8,7 @@ use rayloom_network::{ProcessError, Properties};
 use rayloom_volume::{
     MinMaxBricks, TransferFunction, TransferFunction2D, ValueRange, Volume, distance_map, table_interval,
 };
-use rayloom_wgsl::{Choice, Emptiness, Kernel, Library, Slot, Visibility};
+use rayloom_wgsl::{Choice, Emptiness, Kernel, Slot, Snippet, Visibility};
 
 use super::memo::{Memo, VolumeKey};
 use super::snippets::PLACES;
@@ -61,24 +61,22 @@ pub(super) struct Question<'a> {
 impl<'a> Question<'a> {
     /// The question whether a legal choice with a skipping snippet can skip; `None` when it has none.
     pub fn of(
-        library: &Library,
         choice: &Choice,
         properties: &Properties,
         volume: &'a Arc<Volume>,
         channel: u32,
     ) -> Result<Option<Self>, ProcessError> {
-        let declaration = |slot: Slot| choice.snippets.get(&slot).and_then(|path| library.declaration(path));
-        let Some(skipping) = choice.snippets.get(&Slot::Skipping) else { return Ok(None) };
-        let Some((sampling, kernel)) =
-            declaration(Slot::Sampling).and_then(|sampling| Some((sampling, sampling.kernel?)))
+        let Some(skipping) = choice.snippet(Slot::Skipping) else { return Ok(None) };
+        let sampling = choice.snippet(Slot::Sampling);
+        let Some((sampling, kernel)) = sampling.and_then(|sampling| Some((sampling, sampling.declaration().kernel?)))
         else {
             return Ok(None);
         };
         let mut isovalues = Vec::new();
         let mut transparent = false;
         for place in PLACES {
-            let Some(path) = place.output.and_then(|output| choice.outputs[output].as_ref()) else { continue };
-            let names = match library.declaration(path).and_then(|output| output.emptiness.as_ref()) {
+            let Some(output) = place.output.and_then(|output| choice.outputs[output].as_ref()) else { continue };
+            let names = match output.declaration().emptiness.as_ref() {
                 None | Some(Emptiness::Transparent) => {
                     transparent = true;
                     continue;
@@ -93,7 +91,8 @@ impl<'a> Question<'a> {
                 isovalues.push(properties.f64(&format!("{}.{name}", place.id))?);
             }
         }
-        let visibility = match declaration(Slot::Classification).map(|classification| &classification.visibility) {
+        let classification = choice.snippet(Slot::Classification).map(Snippet::declaration);
+        let visibility = match classification.map(|classification| &classification.visibility) {
             _ if !transparent => VisibilityKey::Nothing,
             Some(Visibility::TransferFunction) => {
                 VisibilityKey::Function(properties.transfer_function("transfer_function")?.clone())
@@ -108,9 +107,9 @@ impl<'a> Question<'a> {
             None | Some(Visibility::Always) => return Ok(None),
         };
         let brick = if properties.text("brick_size")? == "8" { 8 } else { 4 };
-        let splines = sampling.reads.contains("prefiltered");
+        let splines = sampling.reads("prefiltered");
         let bricks: BrickKey = (VolumeKey(volume.clone()), channel, brick, kernel.apron, splines);
-        let distances = Library::id(skipping) != "occupancy";
+        let distances = skipping.id() != "occupancy";
         let key = (bricks, visibility, isovalues, distances, kernel.spread);
         let range = volume.ranges()[channel as usize];
         Ok(Some(Self { volume, range, kernel, key }))

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, PoisonError, RwLock};
 
 use rayloom_network::{ProcessError, Properties};
-use rayloom_wgsl::{Diagnostic, Library, Slot, parse_declaration};
+use rayloom_wgsl::{At, Diagnostic, Library, Slot, Snippet, parse_declaration};
 
 /// Names the folder of the user's own snippets.
 const FOLDER: &str = "RAYLOOM_SNIPPETS";
@@ -94,39 +94,45 @@ pub(super) struct Place {
     pub slot: Slot,
     /// The output, for compositing.
     pub output: Option<usize>,
-    /// Name of the place in the assembled shader's parameters.
-    pub prefix: &'static str,
 }
 
-const fn place(id: &'static str, text: &'static str, slot: Slot, output: Option<usize>, prefix: &'static str) -> Place {
-    Place { id, text, slot, output, prefix }
+const fn place(id: &'static str, text: &'static str, slot: Slot, output: Option<usize>) -> Place {
+    Place { id, text, slot, output }
 }
 
 /// All places, in the order of the property panel.
 pub(super) const PLACES: [Place; 9] = [
-    place("sampling", "sampling.text", Slot::Sampling, None, "sampling"),
-    place("classification", "classification.text", Slot::Classification, None, "classification"),
-    place("gradient", "gradient.text", Slot::Gradient, None, "gradient"),
-    place("shading", "shading.text", Slot::Shading, None, "shading"),
-    place("compositing", "compositing.text", Slot::Compositing, Some(0), "out1"),
-    place("compositing2", "compositing2.text", Slot::Compositing, Some(1), "out2"),
-    place("compositing3", "compositing3.text", Slot::Compositing, Some(2), "out3"),
-    place("refinement", "refinement.text", Slot::Refinement, None, "refinement"),
-    place("skipping", "skipping.text", Slot::Skipping, None, "skipping"),
+    place("sampling", "sampling.text", Slot::Sampling, None),
+    place("classification", "classification.text", Slot::Classification, None),
+    place("gradient", "gradient.text", Slot::Gradient, None),
+    place("shading", "shading.text", Slot::Shading, None),
+    place("compositing", "compositing.text", Slot::Compositing, Some(0)),
+    place("compositing2", "compositing2.text", Slot::Compositing, Some(1)),
+    place("compositing3", "compositing3.text", Slot::Compositing, Some(2)),
+    place("refinement", "refinement.text", Slot::Refinement, None),
+    place("skipping", "skipping.text", Slot::Skipping, None),
 ];
 
 impl Place {
-    /// Library path of the snippet that the properties choose: the edited text if there is one, else the snippet by id.
+    /// Whether it is where a snippet stands in a shader.
+    pub fn is_at(&self, slot: Slot, at: At) -> bool {
+        let output = match at {
+            At::Output(output) => Some(output),
+            At::Ray | At::Source(_) => None,
+        };
+        (self.slot, self.output) == (slot, output)
+    }
+
+    /// The snippet that the properties choose: the edited text if there is one, else the snippet by id.
     /// `None` where the choice is left to the program (`auto`).
     ///
     /// # Errors
     /// An unknown id, with the ids there are; a malformed edited text.
-    pub fn path(&self, library: &mut Library, properties: &Properties) -> Result<Option<Arc<str>>, ProcessError> {
+    pub fn snippet(&self, library: &Library, properties: &Properties) -> Result<Option<Snippet>, ProcessError> {
         let text = properties.text(self.text)?;
         if !text.trim().is_empty() {
-            return Ok(Some(
-                library.add_edited(self.id, self.slot, text).map_err(|problem| shader_error(vec![problem]))?,
-            ));
+            let edited = Snippet::edited(self.id, self.slot, text);
+            return Ok(Some(edited.map_err(|problem| shader_error(vec![problem]))?));
         }
         let id = properties.text(self.id)?;
         if self.slot == Slot::Skipping && id == "auto" {
@@ -135,14 +141,14 @@ impl Place {
         self.find(library, id).map(Some)
     }
 
-    fn find(&self, library: &Library, id: &str) -> Result<Arc<str>, ProcessError> {
-        library.path(self.slot, id).ok_or_else(|| {
+    fn find(&self, library: &Library, id: &str) -> Result<Snippet, ProcessError> {
+        library.snippet(self.slot, id).cloned().ok_or_else(|| {
             let file = format!("user/{id}.wgsl");
             let own: Vec<_> = snippet_library().1.iter().filter(|problem| problem.file == file).cloned().collect();
             if !own.is_empty() {
                 return shader_error(own);
             }
-            let known: Vec<_> = library.snippets(self.slot).map(|(path, _)| Library::id(path)).collect();
+            let known: Vec<_> = library.all(self.slot).map(Snippet::id).collect();
             ProcessError::new(format!("there is no {} snippet `{id}`; there are {}", self.slot, known.join(", ")))
         })
     }

@@ -2,18 +2,21 @@
 //!
 //! The very snippets, parameters and textures of the picture are used; only the shader's text has the notes added.
 
+use std::sync::Arc;
+
 use bytemuck::{Pod, Zeroable, bytes_of, pod_read_unaligned};
 use glam::{DAffine3, DVec3, Vec3};
 use rayloom_gpu::wgpu::BufferUsages;
 use rayloom_network::{Job, ProcessError};
 use rayloom_volume::ValueRange;
-use rayloom_wgsl::{Choice, Library};
+use rayloom_wgsl::{Checked, Choice, Library, Skeleton};
 
 use super::choose::Plan;
-use super::dispatch::{Bound, Resource};
-use super::frame::{mean_spacing, reference_length};
+use super::dispatch::Bound;
+use super::frame::reference_length;
 use super::long_rays::most_steps;
 use super::memory::{Memory, shader};
+use super::resources::Resource;
 use super::{Inputs, OUTPORTS};
 use crate::Data;
 use crate::process::Runner;
@@ -100,8 +103,9 @@ impl Trace {
 
 /// What a run rendered, for looking at one of its rays later.
 pub(super) struct LastRun {
-    library: Library,
-    choice: Choice,
+    library: Arc<Library>,
+    checked: Checked,
+    used: [bool; OUTPORTS.len()],
     resources: Vec<(String, Resource)>,
     size: [u32; 2],
     texture_to_world: DAffine3,
@@ -120,22 +124,29 @@ impl LastRun {
         resources: Vec<(String, Resource)>,
     ) -> Result<Self, ProcessError> {
         let volume = &inputs.volume.volume;
-        let longest = most_steps(volume, job.properties)?;
+        let longest = most_steps(inputs.view, volume, job.properties)?;
+        let used = plan.choice.outputs.each_ref().map(Option::is_some);
+        // Every sample is noted, not only those that a search finds.
+        let choice = Choice { statistics: false, sample_map: false, search: false, ..plan.choice };
+        let checked = choice.check(&plan.library).map_err(|problems| {
+            ProcessError::new(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
+        })?;
         Ok(Self {
             library: plan.library,
-            choice: Choice { trace: true, statistics: false, sample_map: false, ..plan.choice },
+            checked,
+            used,
             resources,
             size: inputs.view.size,
             texture_to_world: volume.texture_to_world(),
             range: volume.ranges()[plan.channel as usize],
-            spacing: mean_spacing(volume),
+            spacing: volume.mean_spacing(),
             reference_length: reference_length(volume, job.properties)?,
             longest: longest.ceil().clamp(1.0, f64::from(CAPACITY)) as u32 + 1,
         })
     }
 
     fn used_outports(&self) -> impl Iterator<Item = (usize, &'static str)> {
-        OUTPORTS.into_iter().enumerate().filter(|(index, _)| self.choice.outputs[*index].is_some())
+        OUTPORTS.into_iter().enumerate().filter(|(index, _)| self.used[*index])
     }
 }
 
@@ -146,10 +157,14 @@ struct Head {
     pixel: [u32; 2],
     taken: u32,
     stopped: u32,
-    entry: [f32; 3],
-    count: u32,
-    step: [f32; 3],
-    steps: f32,
+    origin: [f32; 3],
+    first: u32,
+    direction: [f32; 3],
+    last: u32,
+    begin: f32,
+    end: f32,
+    step: f32,
+    shift: f32,
     results: [[f32; 4]; 3],
     places: [f32; 4],
 }
@@ -159,7 +174,7 @@ struct Head {
 #[repr(C)]
 struct Traced {
     index: u32,
-    along: f32,
+    distance: f32,
     length: f32,
     value: f32,
     gradient: [f32; 4],
@@ -195,7 +210,7 @@ impl Runner {
             let [x, y] = pixel;
             return Err(ProcessError::new(format!("there is no pixel {x},{y} in a picture of {width} x {height}")));
         }
-        let shader = shader(&mut memory.tracing, &run.library, &run.choice)?;
+        let shader = shader(&mut memory.tracing, &run.library, &Skeleton::PROBE, &run.checked)?;
         let head = Head { pixel, ..Head::default() };
         let mut bytes = bytes_of(&head).to_vec();
         bytes.resize(size_of::<Head>() + run.longest.min(CAPACITY) as usize * size_of::<Traced>(), 0);
@@ -234,16 +249,17 @@ impl LastRun {
     /// What the shader noted, in the units of the world and the volume.
     fn trace(&self, head: &Head, traced: impl Iterator<Item = Traced>, reads: Reads) -> Trace {
         let point = |point: [f32; 3]| Vec3::from(point).as_dvec3();
-        let (entry, step) = (point(head.entry), point(head.step));
-        let step_length = (self.texture_to_world.matrix3 * step).length();
+        let (origin, direction) = (point(head.origin), point(head.direction));
+        // Distances on the ray, reference lengths, as distances from the entry point, world units.
+        let from_entry = |distance: f32| f64::from(distance - head.begin) * self.reference_length;
         let sample = |traced: Traced| {
-            let position = self.texture_to_world.transform_point3(entry + step * f64::from(traced.along));
+            let position = self.texture_to_world.transform_point3(origin + direction * f64::from(traced.distance));
             let length = f64::from(traced.length) * self.reference_length;
             let [x, y, z, _] = traced.gradient.map(f64::from);
             TraceSample {
-                index: traced.index,
-                distance: f64::from(traced.along) * step_length,
-                start: f64::from(traced.along) * step_length - length * reads.behind,
+                index: traced.index - head.first,
+                distance: from_entry(traced.distance),
+                start: from_entry(traced.distance) - length * reads.behind,
                 length,
                 position: position.into(),
                 value: self.range.denormalise(f64::from(traced.value)),
@@ -256,13 +272,13 @@ impl LastRun {
         let output = |(output, outport): (usize, &'static str)| TraceOutput {
             outport,
             color: head.results[output],
-            place: (head.places[output] >= 0.0).then(|| f64::from(head.places[output]) * step_length),
+            place: (head.places[output] >= 0.0).then(|| from_entry(head.places[output])),
         };
         Trace {
             pixel: head.pixel,
             size: self.size,
-            length: if head.count > 0 { f64::from(head.steps) * step_length } else { 0.0 },
-            count: head.count,
+            length: if head.last > head.first { from_entry(head.end) } else { 0.0 },
+            count: head.last - head.first,
             taken: head.taken,
             stopped: head.stopped != 0,
             samples: traced.map(sample).collect(),

@@ -1,7 +1,7 @@
 //! The snippets of the ray loop: text, JSON, and a page each.
 
 use rayloom_processors::snippet_library;
-use rayloom_wgsl::{Declaration, Library, Parameter, ParameterType, Slot, TRAVERSAL, contract};
+use rayloom_wgsl::{Declaration, Library, Parameter, ParameterType, Skeleton, Slot, contract};
 use serde_json::{Value as Json, json};
 
 use super::{Page, cell, columns, first_sentence, number};
@@ -28,7 +28,7 @@ pub fn json() -> Vec<Json> {
 /// A page for every built-in snippet in a folder for each slot, and one with the contracts of the slots.
 pub fn pages() -> Result<Vec<Page>, Failure> {
     let library = Library::built_in()?;
-    let skeleton = library.source(TRAVERSAL).map_or("", |source| &source.text);
+    let skeleton = library.source(Skeleton::TRAVERSAL.path).map_or("", |source| &source.text);
     let mut overview =
         "# Slots and snippets\n\nGenerated from the declarations by `cargo xtask docs`. A snippet is one \
                         WGSL file under `shaders/SLOT/`; what a slot expects is its contract.\n"
