@@ -1,3 +1,5 @@
+#include "image/common.wgsl"
+
 // A background behind an image. One invocation a pixel.
 
 const COLOR: u32 = 0u;

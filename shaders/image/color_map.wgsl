@@ -1,3 +1,5 @@
+#include "image/common.wgsl"
+
 // Shows numbers of an image as colours. One invocation a pixel.
 
 // What to show: the colours themselves, one of the four channels, or the depth.

@@ -1,4 +1,4 @@
-// Shared by the image processors: prepended to each of their shaders.
+// Shared by the image processors.
 
 // The depth of a pixel in which nothing was hit.
 const MISS: f32 = 3.0e38;

@@ -1,3 +1,5 @@
+#include "image/common.wgsl"
+
 // Two images become one. One invocation a pixel.
 
 const DEPTH_TEST: u32 = 0u;

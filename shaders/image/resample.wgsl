@@ -4,7 +4,11 @@
 
 @group(0) @binding(0) var rays: texture_2d<f32>;
 @group(0) @binding(1) var ray_depths: texture_2d<f32>;
+#if half_targets
+@group(0) @binding(2) var result: texture_storage_2d<rgba16float, write>;
+#else
 @group(0) @binding(2) var result: texture_storage_2d<rgba32float, write>;
+#endif
 @group(0) @binding(3) var result_depth: texture_storage_2d<r32float, write>;
 
 const MISS = 3.0e38;

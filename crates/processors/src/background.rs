@@ -15,8 +15,7 @@ use rayloom_network::{
 
 use crate::{Bind, Context, Data, Image, ImagePass, JobData, read_picture};
 
-const SHADER: &str =
-    concat!(include_str!("../../../shaders/image/common.wgsl"), include_str!("../../../shaders/image/background.wgsl"));
+const SHADER: &str = "image/background.wgsl";
 
 /// As in the shader.
 #[repr(C)]
@@ -101,7 +100,8 @@ pub fn process(context: &mut Context, job: &Job<'_, Data>) -> Result<Outputs<Dat
     let color = context.color_target("a background", size)?;
     context.run_image_pass(&ImagePass {
         label: "background",
-        wgsl: SHADER,
+        shader: SHADER,
+        flags: &[],
         entry_point: "main",
         bindings: &[
             Bind::Uniform(bytemuck::bytes_of(&parameters)),

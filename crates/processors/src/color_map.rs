@@ -8,8 +8,7 @@ use rayloom_network::{
 
 use crate::{Bind, Context, Data, Image, ImagePass, JobData, MISS};
 
-const SHADER: &str =
-    concat!(include_str!("../../../shaders/image/common.wgsl"), include_str!("../../../shaders/image/color_map.wgsl"));
+const SHADER: &str = "image/color_map.wgsl";
 
 /// What can be shown, in the order of the shader's numbers.
 const SHOWN: [(&str, &str, &str); 6] = [
@@ -131,7 +130,8 @@ pub fn process(context: &mut Context, job: &Job<'_, Data>) -> Result<Outputs<Dat
     let no_depth = context.blank_depth();
     context.run_image_pass(&ImagePass {
         label: "colour map",
-        wgsl: SHADER,
+        shader: SHADER,
+        flags: &[],
         entry_point: "main",
         bindings: &[
             Bind::Uniform(bytemuck::bytes_of(&parameters)),

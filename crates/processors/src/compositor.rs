@@ -7,8 +7,7 @@ use rayloom_network::{
 
 use crate::{Bind, Context, Data, Image, ImagePass, JobData};
 
-const SHADER: &str =
-    concat!(include_str!("../../../shaders/image/common.wgsl"), include_str!("../../../shaders/image/compositor.wgsl"));
+const SHADER: &str = "image/compositor.wgsl";
 
 /// The modes in the order of the shader's constants.
 const MODES: [(&str, &str, &str); 6] = [
@@ -101,7 +100,8 @@ pub fn process(context: &mut Context, job: &Job<'_, Data>) -> Result<Outputs<Dat
     let no_depth = context.blank_depth();
     context.run_image_pass(&ImagePass {
         label: "compositor",
-        wgsl: SHADER,
+        shader: SHADER,
+        flags: &[],
         entry_point: "main",
         bindings: &[
             Bind::Uniform(bytemuck::bytes_of(&parameters)),

@@ -10,9 +10,9 @@ use rayloom_network::{
     Camera, Choice, Declaration, ImageKind, InportDecl, Job, OutportDecl, Outputs, PortType, ProcessError, PropertyDecl,
 };
 
-use crate::{Context, Data, Image, JobData, Mesh, View};
+use crate::{Context, Data, Image, JobData, Mesh, View, plain_shader};
 
-const SHADER: &str = include_str!("../../../shaders/entry_exit/points.wgsl");
+const SHADER: &str = "entry_exit/points.wgsl";
 
 /// Ports, properties and help.
 pub fn declaration() -> Declaration {
@@ -170,7 +170,7 @@ impl Pass {
     ) -> Result<Arc<Texture>, GpuError> {
         let target = context.target(self.outport, size, format)?;
         let depth = context.target("depth test", size, TextureFormat::Depth32Float)?;
-        let pipeline = context.pipelines.render(&context.gpu, "entry/exit points", SHADER, &self.state(format))?;
+        let pipeline = context.pipelines.render(&context.gpu, "entry/exit points", &plain_shader(SHADER, &[]), &self.state(format))?;
         let gpu = &context.gpu;
         gpu.guarded("entry/exit points", || {
             let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {

@@ -3,7 +3,7 @@
 use rayloom_gpu::wgpu;
 use rayloom_gpu::{GpuError, Texture};
 
-use crate::Context;
+use crate::{Context, plain_shader};
 use crate::explain::{Explanation, Role};
 
 /// Side of a workgroup; the shaders say `@workgroup_size(8, 8)`.
@@ -26,8 +26,10 @@ pub enum Bind<'a> {
 pub struct ImagePass<'a> {
     /// What it is, for messages.
     pub label: &'a str,
-    /// The shader.
-    pub wgsl: &'a str,
+    /// Path of its shader in the library.
+    pub shader: &'static str,
+    /// Flags that are set for `#if` in it.
+    pub flags: &'static [&'static str],
     /// Its entry point, with workgroups of 8 x 8.
     pub entry_point: &'a str,
     /// Group 0: binding 0, 1, ... All of them must occur in the shader.
@@ -44,7 +46,7 @@ impl Context {
             Explanation::new(Role::Computed, format!("{} at {width} x {height} pixels", pass.label), "one pass")
         });
         let gpu = &self.gpu;
-        let pipeline = self.pipelines.compute(gpu, pass.label, pass.wgsl, pass.entry_point)?;
+        let pipeline = self.pipelines.compute(gpu, pass.label, &plain_shader(pass.shader, pass.flags), pass.entry_point)?;
         let uniforms = pass
             .bindings
             .iter()

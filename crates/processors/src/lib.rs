@@ -22,6 +22,7 @@ mod image_pass;
 mod process;
 mod ray_traversal;
 mod registry;
+mod shader;
 mod slice_view;
 mod step;
 pub mod types;
@@ -40,6 +41,7 @@ pub use ray_traversal::{
     Trace, TraceOutput, TraceSample, reload_snippets, save_user_snippet, snippet_library, snippet_revision, user_folder,
 };
 pub use registry::{processors, registry};
+pub use shader::plain_shader;
 pub use step::step_length;
 pub use view::{View, same_box};
 pub use volume_texture::{GpuVolume, Storage};

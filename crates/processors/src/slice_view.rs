@@ -12,8 +12,7 @@ use rayloom_volume::{MAX_EXTINCTION, TransferFunction, ValueRange, Volume, fract
 
 use crate::{Bind, Context, Data, GpuVolume, Image, ImagePass, JobData};
 
-const SHADER: &str =
-    concat!(include_str!("../../../shaders/image/common.wgsl"), include_str!("../../../shaders/image/slice_view.wgsl"));
+const SHADER: &str = "image/slice_view.wgsl";
 
 /// Entries of the table that a transfer function is read from.
 const TABLE: usize = 4096;
@@ -151,7 +150,8 @@ pub fn process(context: &mut Context, job: &Job<'_, Data>) -> Result<Outputs<Dat
     let color = context.color_target("a slice", job.size)?;
     context.run_image_pass(&ImagePass {
         label: "slice view",
-        wgsl: SHADER,
+        shader: SHADER,
+        flags: &[],
         entry_point: "main",
         bindings: &[
             Bind::Uniform(bytemuck::bytes_of(&parameters)),

@@ -9,10 +9,10 @@ use egui::TextureId;
 use rayloom_gpu::wgpu::{self, TextureFormat, TextureUsages};
 use rayloom_gpu::{Gpu, GpuError, PipelineCache, Texture};
 use rayloom_network::ImageKind;
-use rayloom_processors::Image;
+use rayloom_processors::{Image, plain_shader};
 
-const SHADER: &str = include_str!("../../../shaders/image/display.wgsl");
-const DIFFERENCE: &str = include_str!("../../../shaders/image/difference.wgsl");
+const SHADER: &str = "image/display.wgsl";
+const DIFFERENCE: &str = "image/difference.wgsl";
 
 /// Frames after which a picture that nobody asked for is freed.
 const KEPT_FRAMES: u64 = 30;
@@ -123,7 +123,7 @@ impl Display {
         &mut self,
         (images, bits): ([&Arc<Image>; 2], [u32; 6]),
         sharp: bool,
-        shader: &str,
+        shader: &'static str,
         parameters: &[u8],
         inputs: [&Arc<Texture>; 2],
     ) -> Result<TextureId, GpuError> {
@@ -144,13 +144,13 @@ impl Display {
 
     fn convert(
         &mut self,
-        shader: &str,
+        shader: &'static str,
         parameters: &[u8],
         [first, second]: [&Arc<Texture>; 2],
         result: &Texture,
     ) -> Result<(), GpuError> {
         let gpu = &self.gpu;
-        let pipeline = self.pipelines.compute(gpu, "display", shader, "main")?;
+        let pipeline = self.pipelines.compute(gpu, "display", &plain_shader(shader, &[]), "main")?;
         let uniform = gpu.buffer("display", parameters, wgpu::BufferUsages::UNIFORM)?;
         gpu.guarded("display", || {
             let views = [&first.view, &second.view, &result.view].map(wgpu::BindingResource::TextureView);

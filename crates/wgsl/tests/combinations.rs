@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::thread;
 
-use rayloom_wgsl::{Choice, Library, Skeleton, Slot, SourceChoice, assemble, legal_choices, validate};
+use rayloom_wgsl::{Checked, Choice, Library, Skeleton, Slot, SourceChoice, assemble, legal_choices, validate};
 
 fn validate_all(library: &Library, skeleton: &Skeleton, choices: &[Choice]) -> Vec<String> {
     let workers = thread::available_parallelism().map_or(1, |count| count.get());
@@ -122,6 +122,25 @@ fn nothing_that_was_not_asked_for_is_in_the_text() {
         let text = assemble(&library, &Skeleton::TRAVERSAL, &checked).expect("legal").text;
         for absent in ["trace", "counters", "overrun", "gap_map", "sample_map:", "v2_", "SRC_", "OUT_"] {
             assert!(!text.contains(absent), "{absent}\n{text}");
+        }
+    }
+}
+
+#[test]
+fn every_shader_without_slots_is_valid() {
+    let library = Library::built_in().expect("built-in snippets declare themselves well");
+    let mut shaders = Vec::new();
+    for folder in ["image", "entry_exit"] {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shaders").join(folder);
+        let files = std::fs::read_dir(path).expect("the folder").flatten();
+        shaders.extend(files.map(|file| format!("{folder}/{}", file.file_name().to_string_lossy())));
+    }
+    assert!(shaders.len() > 8, "{shaders:?}");
+    for path in shaders {
+        let skeleton = Skeleton::plain(path.clone().leak());
+        for flags in [&[][..], &["half_targets"]] {
+            let assembled = assemble(&library, &skeleton, &Checked::plain(flags)).expect(&path);
+            validate(&library, assembled).expect(&path);
         }
     }
 }

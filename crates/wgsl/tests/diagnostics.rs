@@ -75,7 +75,7 @@ fn mistakes_are_shown_where_they_are() {
          |                                                     ^
     ");
     insta::assert_snapshot!(edited("gradient/central.wgsl", "slopes(p, 1.0, 1.0);", "slopes(p, 1.0, 1.0) * vec2f(0.5);"), @r"
-    edited/gradient.wgsl:8:12: Function [12] 'gradient_at' is invalid: Expression [7] is invalid: Operation Multiply can't work with [4] (of type Vector { size: Tri, scalar: Scalar { kind: Float, width: 4 } }) and [6] (of type Vector { size: Bi, scalar: Scalar { kind: Float, width: 4 } })
+    edited/gradient.wgsl:8:12: Function [16] 'gradient_at' is invalid: Expression [7] is invalid: Operation Multiply can't work with [4] (of type Vector { size: Tri, scalar: Scalar { kind: Float, width: 4 } }) and [6] (of type Vector { size: Bi, scalar: Scalar { kind: Float, width: 4 } })
       8 |     return slopes(p, 1.0, 1.0) * vec2f(0.5);
         |            ^
     ");
@@ -162,7 +162,7 @@ fn only_what_is_read_is_emitted() {
     };
     let unshaded = lines(&choice(&library, &[(Slot::Shading, "none")], "dvr"));
     for absent in
-        ["fn gradient_at", "fn lit", "fn refine", "fn skip_empty", "preintegrated_table", "label_table", "out2_"]
+        ["fn gradient_at", "fn shade", "fn refine", "skip_map", "preintegrated_table", "label_table", "out2_"]
     {
         assert!(!unshaded.contains(absent), "{absent}");
     }
@@ -237,7 +237,7 @@ fn what_reaches_beyond_a_slot_is_refused_where_it_stands() {
             "",
             "    frame.two_sided = 0.0;",
             "5:5",
-            "Function [14] 'shade' is invalid: The pointer [3] doesn't relate to a valid destination for a store",
+            "Function [20] 'shade' is invalid: The pointer [3] doesn't relate to a valid destination for a store",
         ),
         ("", "    shade(medium, surface);", "4:4", "declaration of `shade` is recursive (uses itself here)"),
         (

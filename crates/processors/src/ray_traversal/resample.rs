@@ -7,7 +7,7 @@ use super::dispatch::Target;
 use crate::image_pass::{Bind, ImagePass};
 use crate::{Context, Data, View};
 
-const SHADER: &str = include_str!("../../../../shaders/image/resample.wgsl");
+const SHADER: &str = "image/resample.wgsl";
 
 /// The picture of one ray a texel, made one of the size that was asked for, with the view of that. At a pixel rate of 1 it is
 /// handed on as it is.
@@ -25,13 +25,10 @@ pub(super) fn resample(
         color: context.target("resampled image", job.size, format)?,
         depth: context.depth_target("resampled depth", job.size)?,
     };
-    let wgsl = match format {
-        TextureFormat::Rgba16Float => SHADER.replace("rgba32float", "rgba16float"),
-        _ => SHADER.to_owned(),
-    };
     context.run_image_pass(&ImagePass {
         label: "pixels from rays",
-        wgsl: &wgsl,
+        shader: SHADER,
+        flags: if format == TextureFormat::Rgba16Float { &["half_targets"] } else { &[] },
         entry_point: "main",
         bindings: &[&rays.color, &rays.depth, &pixels.color, &pixels.depth].map(|texture| Bind::Texture(texture)),
         size: job.size,

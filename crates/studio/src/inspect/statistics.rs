@@ -5,9 +5,9 @@ use std::sync::{Mutex, PoisonError};
 use bytemuck::{Pod, Zeroable};
 use rayloom_gpu::{Gpu, GpuError, PipelineCache, wgpu};
 use rayloom_network::ImageKind;
-use rayloom_processors::Image;
+use rayloom_processors::{Image, plain_shader};
 
-const SHADER: &str = include_str!("../../../../shaders/image/statistics.wgsl");
+const SHADER: &str = "image/statistics.wgsl";
 
 /// Workgroups; as in the shader.
 const GROUPS: usize = 64;
@@ -65,7 +65,7 @@ pub struct Statistics {
 /// The device refuses or is lost.
 pub fn statistics(gpu: &Gpu, pipelines: &Mutex<PipelineCache>, image: &Image) -> Result<Statistics, GpuError> {
     let label = "image statistics";
-    let pipeline = pipelines.lock().unwrap_or_else(PoisonError::into_inner).compute(gpu, label, SHADER, "main")?;
+    let pipeline = pipelines.lock().unwrap_or_else(PoisonError::into_inner).compute(gpu, label, &plain_shader(SHADER, &[]), "main")?;
     let hits_only = matches!(image.kind, ImageKind::EntryPoints | ImageKind::ExitPoints);
     let bounded = hits_only || image.kind == ImageKind::Color;
     let parameters =
