@@ -84,13 +84,12 @@ fn values_are_those_of_the_reference() {
     let mut worst = 0.0_f64;
     for pixel in [[24, 16], [20, 12], [29, 19], [26, 13]] {
         let chord = chords[(pixel[1] * SIZE[0] + pixel[0]) as usize].expect("a ray through the volume");
-        let steps = (chord.segment.exit - chord.segment.entry) * volume.dims_f64();
-        let lattice = Lattice::new(steps.length(), 1.7, 0.0);
+        let lattice = Lattice { step: volume.mean_spacing() / 1.7, shift: 0.0, from: 0.0, to: chord.length };
         let traced = trace(&mut bench, pixel);
         assert!((traced.length - chord.length).abs() < 1e-5 * chord.length, "{} {}", traced.length, chord.length);
-        assert_eq!(u64::from(traced.count), lattice.count);
+        assert_eq!(traced.count as usize, lattice.steps().count());
         for (sample, expected) in traced.samples.iter().zip(lattice.samples()) {
-            let share = expected.position / lattice.length;
+            let share = expected.position / chord.length;
             let value = field.at_texture(chord.segment.at(share));
             worst = worst.max((sample.value - value).abs() / field.range().width());
             assert!((sample.distance - share * chord.length).abs() < 1e-5 * chord.length);

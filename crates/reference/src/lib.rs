@@ -5,7 +5,7 @@
 //!
 //! - [`exact`] takes no samples: it is what the scene stands for, to about 1e-13. What a picture differs from it is its error.
 //! - [`same_samples`] takes the very samples the GPU takes, in float64: what remains between the two pictures is the
-//!   arithmetic of the GPU. Refining its rate shows the discretisation error.
+//!   arithmetic of the GPU. Refining its step shows the discretisation error.
 //! - [`closed_forms`] are scenes whose exact value is a formula: they judge both.
 //! - [`metrics`] measure how far two pictures are apart: as numbers, on a display, and by the surfaces they show.
 //! - [`Cache`] keeps the pictures of either renderer on disk, by what they show.

@@ -60,7 +60,7 @@ impl<'a> Prepared<'a> {
             texture_to_world,
             world_to_texture: texture_to_world.inverse(),
             gradient_to_world: scene.volume.index_to_world.matrix3.inverse().transpose(),
-            mean_spacing: scene.volume.index_to_world.matrix3.determinant().abs().cbrt(),
+            mean_spacing: scene.volume.mean_spacing(),
             towards_light: scene.shading.map_or(DVec3::ZERO, |shading| shading.towards_light(&view)),
             view,
             scene,
@@ -71,8 +71,19 @@ impl<'a> Prepared<'a> {
     pub(crate) fn passage(&self, x: u32, y: u32) -> Option<Passage> {
         let ray = self.view.ray(x, y);
         let segment = self.bounds.clip(&ray.transformed(&self.world_to_texture))?;
-        let world_length = self.texture_to_world.transform_vector3(segment.exit - segment.entry).length();
-        Some(Passage { ray, segment, length: world_length / self.scene.reference_length })
+        Some(Passage { ray, segment, length: self.length(&segment) })
+    }
+
+    /// The line of a ray, extended beyond its start, within the box of the whole volume.
+    pub(crate) fn line(&self, ray: &Ray) -> Option<Segment> {
+        let line = Ray { start: f64::NEG_INFINITY, ..*ray };
+        AxisBox::UNIT.clip(&line.transformed(&self.world_to_texture))
+    }
+
+    /// Length of a segment in reference lengths.
+    pub(crate) fn length(&self, segment: &Segment) -> f64 {
+        let world = self.texture_to_world.transform_vector3(segment.exit - segment.entry);
+        world.length() / self.scene.reference_length
     }
 
     /// The surface at texture coordinates on a ray.

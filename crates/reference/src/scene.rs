@@ -92,8 +92,8 @@ pub struct Scene<'a> {
     pub camera: Camera,
     /// Width and height of the picture in pixels.
     pub size: [u32; 2],
-    /// Samples per voxel.
-    pub rate: f64,
+    /// Distance between samples in world units, the same for all rays.
+    pub step: f64,
     /// The length in world units over which a material shows the opacity drawn in the transfer function.
     pub reference_length: f64,
     /// What becomes of the samples of a ray.
@@ -111,8 +111,8 @@ pub struct Scene<'a> {
 }
 
 impl<'a> Scene<'a> {
-    /// The whole first channel of `volume`, rendered by [`Method::Dvr`] at one trilinear sample per voxel, without lighting or
-    /// early termination; opacities are per unit length.
+    /// The whole first channel of `volume`, rendered by [`Method::Dvr`] at one trilinear sample per mean voxel spacing, without
+    /// lighting or early termination; opacities are per unit length.
     pub fn new(volume: &'a Volume, classification: impl Into<Classification>, camera: Camera, size: [u32; 2]) -> Self {
         Self {
             volume,
@@ -121,7 +121,7 @@ impl<'a> Scene<'a> {
             clip: AxisBox::UNIT,
             camera,
             size,
-            rate: 1.0,
+            step: volume.mean_spacing(),
             reference_length: 1.0,
             method: Method::Dvr,
             classification: classification.into(),
@@ -143,7 +143,7 @@ impl<'a> Scene<'a> {
         if self.size.contains(&0) {
             return Err(SceneError::Size { found: self.size });
         }
-        positive("sampling rate", self.rate)?;
+        positive("step", self.step)?;
         positive("reference length", self.reference_length)?;
         if let Some(threshold) = self.early_termination {
             positive("early termination threshold", threshold)?;

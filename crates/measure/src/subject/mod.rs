@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use rayloom_network::{self as network, Network, Properties};
-use rayloom_processors::{Data, Mesh, View, same_box};
+use rayloom_processors::{Data, Mesh, View, same_box, step_length};
 use rayloom_reference::field::Sampling;
 use rayloom_reference::gradient::GradientOperator;
 use rayloom_reference::ray::AxisBox;
@@ -30,7 +30,7 @@ pub struct Subject {
     clip: AxisBox,
     camera: Camera,
     size: [u32; 2],
-    rate: f64,
+    step: f64,
     pixel_rate: f64,
     jitter: Option<u32>,
     reference_length: f64,
@@ -85,13 +85,14 @@ impl Subject {
             false => GradientOperator::default(),
         };
         let error = properties.f64("termination_error")?;
+        let step = step_length(&view, &volume, properties.f64("sampling_rate")?);
         Ok(Self {
             channel: channel(&properties, &volume)?,
             sampling: sampling(&properties)?,
             clip: clip(mesh)?,
             camera: camera(&view),
             size: view.size,
-            rate: properties.f64("sampling_rate")?,
+            step,
             pixel_rate: properties.f64("pixel_rate")?,
             jitter: jitter(&properties)?,
             reference_length: reference_length(&properties, &chain.image.item, &volume, method)?,
@@ -100,7 +101,7 @@ impl Subject {
             shading,
             gradient,
             early_termination: (error > 0.0).then_some(1.0 - error),
-            own_samples: own_samples(&properties, &volume, method)?,
+            own_samples: own_samples(&properties, &volume, method, step)?,
             volume,
         })
     }
@@ -111,7 +112,7 @@ impl Subject {
             channel: self.channel,
             sampling: self.sampling,
             clip: self.clip,
-            rate: self.rate,
+            step: self.step,
             jitter: self.jitter,
             reference_length: self.reference_length,
             method: self.method,
@@ -298,8 +299,7 @@ fn channel(properties: &Properties, volume: &Volume) -> Refusable<u32> {
 /// many reference lengths.
 fn reference_length(properties: &Properties, outport: &str, volume: &Volume, method: Method) -> Refusable<f64> {
     let chosen = properties.f64("reference_length")?;
-    let mean_spacing = volume.index_to_world.matrix3.determinant().abs().cbrt();
-    let length = if chosen > 0.0 { chosen } else { mean_spacing };
+    let length = if chosen > 0.0 { chosen } else { volume.mean_spacing() };
     Ok(match method {
         Method::Sum => length / properties.f64(&format!("{}.gain", compositing_of(outport)))?,
         _ => length,
@@ -341,7 +341,7 @@ fn jitter(properties: &Properties) -> Refusable<Option<u32>> {
     Ok(properties.bool("jitter")?.then_some(seed))
 }
 
-fn own_samples(properties: &Properties, volume: &Volume, method: Method) -> Refusable<Option<Refusal>> {
+fn own_samples(properties: &Properties, volume: &Volume, method: Method, step: f64) -> Refusable<Option<Refusal>> {
     let classification = properties.text("classification")?;
     if method == Method::Dvr && classification.starts_with("preintegrated") {
         return Ok(Some(Refusal(
@@ -356,10 +356,17 @@ fn own_samples(properties: &Properties, volume: &Volume, method: Method) -> Refu
         )));
     }
     let most = properties.int("max_samples")? as f64;
-    let longest = volume.dims_f64().length() * properties.f64("sampling_rate")?;
+    let longest = longest_diagonal(volume) / step;
     Ok((longest > most).then(|| {
         Refusal(format!(
             "rays of up to {longest:.0} samples are cut to {most}; raise max_samples or draw the exact reference"
         ))
     }))
+}
+
+/// Length of the longest line through the box of a volume, world units.
+fn longest_diagonal(volume: &Volume) -> f64 {
+    let box_axes = volume.texture_to_world().matrix3;
+    let diagonals = [DVec3::ONE, DVec3::new(-1.0, 1.0, 1.0), DVec3::new(1.0, -1.0, 1.0), DVec3::new(1.0, 1.0, -1.0)];
+    diagonals.map(|diagonal| (box_axes * diagonal).length()).into_iter().fold(0.0, f64::max)
 }

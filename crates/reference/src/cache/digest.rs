@@ -13,11 +13,11 @@ use glam::DVec3;
 use rayloom_volume::{Knot, Label, LabelTable, TransferFunction, Volume};
 
 /// Raised whenever the same scene may come to another picture.
-const VERSION: u64 = 4;
+const VERSION: u64 = 5;
 
 /// The key of a picture of `scene`: equal for equal pictures, different for different ones but for chances of 2^-128.
 ///
-/// Only what the renderer looks at counts: the exact picture has one key at all sampling rates.
+/// Only what the renderer looks at counts: the exact picture has one key at all lengths of steps.
 pub(super) fn key(reference: Reference, scene: &Scene<'_>, part: Option<Rectangle>) -> u128 {
     // Without `..`, so that a new field cannot be forgotten here.
     let Scene {
@@ -27,7 +27,7 @@ pub(super) fn key(reference: Reference, scene: &Scene<'_>, part: Option<Rectangl
         clip: AxisBox { min, max },
         camera,
         size,
-        rate,
+        step,
         reference_length,
         method,
         classification,
@@ -43,7 +43,7 @@ pub(super) fn key(reference: Reference, scene: &Scene<'_>, part: Option<Rectangl
     digest.vectors(&[*min, *max]);
     digest.number(*reference_length);
     if sampled {
-        digest.number(*rate);
+        digest.number(*step);
         digest.optional(*early_termination);
         digest.optional(jitter.map(f64::from));
     }

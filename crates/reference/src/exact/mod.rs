@@ -12,7 +12,7 @@
 //! - [`Method::Isosurface`] takes the first root, [`Method::Isosurfaces`] all; a ray that touches a surface from outside meets it.
 //! - [`Method::FirstHit`] is where the first piece begins that is not transparent.
 //!
-//! There is nothing to choose: [`Scene::rate`], [`Scene::early_termination`] and the refinement of isosurfaces do not apply.
+//! There is nothing to choose: [`Scene::step`], [`Scene::early_termination`] and the refinement of isosurfaces do not apply.
 //! Opacity 1 that the transfer function reaches at a single value is a pole of the extinction with a finite integral; only
 //! where it is 1 over an interval of values, or a cell is constant, [`rayloom_volume::MAX_EXTINCTION`] applies.
 //!

@@ -16,7 +16,7 @@ impl Renderer<'_> {
             if material.opacity <= 0.0 {
                 continue;
             }
-            let opacity = -(-extinction(material.opacity) * sample.length * path.step).exp_m1();
+            let opacity = -(-extinction(material.opacity) * sample.length).exp_m1();
             let color = self.prepared.lit(material.color, texture, &path.ray);
             result.put_behind(color, opacity, path.depth(sample.position));
             if self.prepared.scene.early_termination.is_some_and(|threshold| result.color[3] >= threshold) {

@@ -4,7 +4,7 @@ use super::{Path, Renderer, SurfaceHit};
 use crate::image::PixelResult;
 use crate::scene::{Layer, Refinement};
 
-/// A position on a ray, in steps, and how far the value there lies above the isovalue.
+/// A position on a ray, and how far the value there lies above the isovalue.
 #[derive(Debug, Clone, Copy)]
 struct Point {
     position: f64,
@@ -52,7 +52,7 @@ impl Renderer<'_> {
         result
     }
 
-    /// Position of the first crossing between entry, samples and exit, in steps. A ray that enters inside is not cut there: it
+    /// Position of the first crossing between entry, samples and exit. A ray that enters inside is not cut there: it
     /// crosses where it comes out; nothing is crossed where the field has no value.
     fn first_crossing(&self, path: &Path, isovalue: f64, refinement: Refinement) -> Option<f64> {
         self.stretches(path).find_map(|stretch| self.crossing(path, stretch, isovalue, refinement))
@@ -61,7 +61,7 @@ impl Renderer<'_> {
     /// Position and value of the ends of the stretches between entry, samples and exit; those in gaps are left out.
     fn stretches<'p>(&'p self, path: &'p Path) -> impl Iterator<Item = [(f64, f64); 2]> + 'p {
         let samples = path.lattice.samples().map(|sample| sample.position);
-        let places = std::iter::once(0.0).chain(samples).chain(std::iter::once(path.lattice.length));
+        let places = std::iter::once(path.lattice.from).chain(samples).chain(std::iter::once(path.lattice.to));
         let ends = places.map(|place| (!self.in_gap(path, place)).then(|| (place, self.value(path, place))));
         let pairs = ends.scan(None, |previous, end| Some((std::mem::replace(previous, end), end)));
         pairs.filter_map(|(from, to)| Some([from?, to?]))

@@ -3,18 +3,20 @@
 /// How far, in steps, a ray may exceed a whole number of steps without a further sample: rounding must not decide it.
 const SLACK: f64 = 1e-4;
 
-/// Midpoints of equal steps from the entry on; the last step is shortened (or, within the slack, stretched) to end at the exit.
-/// A shift moves the steps towards the entry, so that the first is shortened, too.
+/// Middles of equal steps from the anchor on, of which an interval is visible. The interval shortens (or, within the slack,
+/// stretches) the first and the last of its steps and moves no other. A shift moves all steps towards the anchor.
 ///
-/// Positions and lengths are in steps.
+/// All lengths are of one unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lattice {
-    /// Length of the ray.
-    pub length: f64,
-    /// Share of a step by which the steps are moved towards the entry, at least 0 and less than 1.
+    /// Length of a step.
+    pub step: f64,
+    /// Share of a step by which the steps are moved towards the anchor, at least 0 and less than 1.
     pub shift: f64,
-    /// Number of samples, at least one.
-    pub count: u64,
+    /// Distance of the entry from the anchor.
+    pub from: f64,
+    /// Distance of the exit from the anchor.
+    pub to: f64,
 }
 
 /// The shift of the lattice of a pixel: 24 bits of the integer hash PCG3D (Jarzynski and Olano, Hash Functions for GPU
@@ -34,27 +36,33 @@ pub fn jitter(x: u32, y: u32, seed: u32) -> f64 {
 /// One sample of a ray.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LatticeSample {
-    /// Distance from the entry in steps.
+    /// Distance from the anchor.
     pub position: f64,
-    /// Length that the sample stands for, in steps.
+    /// Length that the sample stands for.
     pub length: f64,
 }
 
 impl Lattice {
-    /// The lattice on a ray of `voxels` voxels at `rate` samples per voxel.
-    pub fn new(voxels: f64, rate: f64, shift: f64) -> Self {
-        let length = voxels * rate;
-        Self { length, shift, count: ((length + shift - SLACK).ceil() as u64).max(1) }
+    /// The numbers of the steps that are visible, counted from the anchor; at least one.
+    pub fn steps(self) -> std::ops::Range<i64> {
+        let Self { step, shift, from, to } = self;
+        let first = (from / step + shift + SLACK).floor() as i64;
+        let end = (to / step + shift - SLACK).ceil() as i64;
+        first..end.max(first + 1)
     }
 
-    /// The samples from front to back; their lengths sum to the length of the ray.
+    /// Where the visible steps begin and end, from front to back.
+    pub fn segments(self) -> impl Iterator<Item = [f64; 2]> {
+        let Self { step, shift, from, to } = self;
+        let steps = self.steps();
+        let (first, end) = (steps.start, steps.end);
+        let start = move |i: i64| if i == first { from } else { (i as f64 - shift) * step };
+        steps.map(move |i| [start(i), if i + 1 == end { to } else { start(i + 1) }])
+    }
+
+    /// The samples from front to back; their lengths sum to the length of the interval.
     pub fn samples(self) -> impl Iterator<Item = LatticeSample> {
-        let Self { length, shift, count } = self;
-        let end = move |i: u64| if i + 1 == count { length } else { (i + 1) as f64 - shift };
-        (0..count).map(move |i| {
-            let (start, end) = (if i == 0 { 0.0 } else { i as f64 - shift }, end(i));
-            LatticeSample { position: 0.5 * (start + end), length: end - start }
-        })
+        self.segments().map(|[start, end]| LatticeSample { position: 0.5 * (start + end), length: end - start })
     }
 }
 
@@ -63,17 +71,41 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lengths_sum_to_the_ray() {
+    fn lengths_sum_to_the_interval() {
         let lengths = [1e-9, 0.3, 1.0, 1.00001, 1.5, 7.0, 7.25, 1000.9];
-        for (length, shift) in lengths.into_iter().flat_map(|length| [0.0, 0.3, 0.999].map(|shift| (length, shift))) {
-            let samples: Vec<_> = Lattice::new(length, 1.0, shift).samples().collect();
-            let sum: f64 = samples.iter().map(|s| s.length).sum();
-            assert!((sum - length).abs() < 1e-12 * length.max(1.0));
-            assert!(samples.windows(2).all(|w| w[0].position < w[1].position));
-            assert!(samples.iter().all(|s| s.length > 0.0 && s.position > 0.0 && s.position < length));
+        let shifts = [0.0, 0.3, 0.999];
+        let froms = [0.0, 0.00003, 0.4, 3.0, 5.99995];
+        for (length, shift, from) in
+            lengths.into_iter().flat_map(|l| shifts.into_iter().flat_map(move |s| froms.map(|f| (l, s, f))))
+        {
+            for step in [1.0, 0.37] {
+                let lattice = Lattice { step, shift, from: from * step, to: (from + length) * step };
+                let samples: Vec<_> = lattice.samples().collect();
+                let sum: f64 = samples.iter().map(|s| s.length).sum();
+                assert!((sum - step * length).abs() < 1e-12 * length.max(1.0));
+                assert!(samples.windows(2).all(|w| w[0].position < w[1].position));
+                assert!(samples.iter().all(|s| s.length > 0.0 && s.length < 1.0002 * step), "{lattice:?} {samples:?}");
+                assert!(samples.iter().all(|s| s.position > lattice.from && s.position < lattice.to));
+            }
         }
-        assert_eq!(Lattice::new(4.0, 2.0, 0.0).count, 8);
-        assert_eq!(Lattice::new(4.00004, 1.0, 0.0).count, 4);
-        assert_eq!(Lattice::new(4.001, 1.0, 0.0).count, 5);
+        let count = |from, to, step| Lattice { step, shift: 0.0, from, to }.steps().count();
+        assert_eq!(count(0.0, 4.0, 0.5), 8);
+        assert_eq!(count(0.0, 4.00004, 1.0), 4);
+        assert_eq!(count(0.0, 4.001, 1.0), 5);
+        assert_eq!(count(0.99995, 4.0, 1.0), 3);
+        assert_eq!(count(0.999, 4.0, 1.0), 4);
+    }
+
+    #[test]
+    fn intervals_move_no_sample_of_a_whole_step() {
+        for shift in [0.0, 0.61] {
+            let whole = Lattice { step: 0.3, shift, from: 0.0, to: 7.0 };
+            let cut = Lattice { from: 1.234, to: 5.432, ..whole };
+            let [all, some] = [whole, cut].map(|lattice| lattice.samples().collect::<Vec<_>>());
+            let first = cut.steps().start - whole.steps().start;
+            let (ends, inner) = ([some[0], some[some.len() - 1]], &some[1..some.len() - 1]);
+            assert_eq!(inner, &all[first as usize + 1..][..inner.len()]);
+            assert!(inner.len() > 10 && ends.iter().all(|end| end.length < 0.3));
+        }
     }
 }

@@ -69,17 +69,18 @@ impl<'a> Renderer<'a> {
     /// The way of a pixel's ray through the volume.
     fn path(&self, x: u32, y: u32) -> Option<Path> {
         let passage = self.prepared.passage(x, y)?;
-        let span = passage.segment.exit - passage.segment.entry;
-        let voxels = (span * self.prepared.field.dims().as_dvec3()).length();
-        let shift = self.prepared.scene.jitter.map_or(0.0, |seed| jitter(x, y, seed));
-        let lattice = Lattice::new(voxels, self.prepared.scene.rate, shift);
+        let line = self.prepared.line(&passage.ray)?;
+        let Scene { step, reference_length, jitter: seed, .. } = self.prepared.scene;
+        let length = self.prepared.length(&line);
+        let distance = |parameter: f64| (parameter - line.from) / (line.to - line.from) * length;
+        let lattice = Lattice {
+            step: step / reference_length,
+            shift: seed.map_or(0.0, |seed| jitter(x, y, seed)),
+            from: distance(passage.segment.from),
+            to: distance(passage.segment.to),
+        };
         // None: a corner grazed so closely that the length underflows.
-        (lattice.length > 0.0).then(|| Path {
-            ray: passage.ray,
-            segment: passage.segment,
-            lattice,
-            step: passage.length / lattice.length,
-        })
+        (lattice.from < lattice.to).then_some(Path { ray: passage.ray, line, length, lattice })
     }
 
     /// The samples of a ray at which the field has a value.
@@ -87,34 +88,36 @@ impl<'a> Renderer<'a> {
         path.lattice.samples().filter(|sample| !self.in_gap(path, sample.position))
     }
 
-    /// Whether the field has no value at `position` steps from the entry.
+    /// Whether the field has no value at a `position` on a ray.
     fn in_gap(&self, path: &Path, position: f64) -> bool {
         self.prepared.field.in_gap(path.texture(position))
     }
 
-    /// The field at `position` steps from the entry, in data units.
+    /// The field at a `position` on a ray, in data units.
     fn value(&self, path: &Path, position: f64) -> f64 {
         self.prepared.field.at_texture(path.texture(position))
     }
 }
 
-/// The way of a ray through the volume and the samples on it.
+/// The way of a ray through the volume and the samples on it. Positions are distances in reference lengths from where the line
+/// of the ray enters the box of the whole volume, whatever part of it is shown.
 struct Path {
     ray: Ray,
-    segment: Segment,
+    /// The line of the ray through the whole volume, before the eye, too; texture coordinates.
+    line: Segment,
+    /// Length of the line in reference lengths.
+    length: f64,
     lattice: Lattice,
-    /// One step in reference lengths.
-    step: f64,
 }
 
 impl Path {
-    /// Texture coordinates at `position` steps from the entry.
+    /// Texture coordinates at a position.
     fn texture(&self, position: f64) -> DVec3 {
-        self.segment.at(position / self.lattice.length)
+        self.line.at(position / self.length)
     }
 
-    /// View depth in world units at `position` steps from the entry.
+    /// View depth in world units at a position.
     fn depth(&self, position: f64) -> f64 {
-        self.segment.parameter_at(position / self.lattice.length)
+        self.line.parameter_at(position / self.length)
     }
 }

@@ -135,7 +135,7 @@ fn whatever_changes_a_picture_changes_its_file() {
         assert_eq!(paths.len(), scenes.len());
     }
     // What only samples know leaves the exact picture alone.
-    let finer = change(&|scene| scene.rate = 2.0);
+    let finer = change(&|scene| scene.step /= 2.0);
     let path = |reference, scene: &Scene<'_>| cache.path(reference, scene, None);
     assert_eq!(path(Reference::Exact, &finer), path(Reference::Exact, &scenes[0]));
     assert_ne!(path(Reference::SameSamples, &finer), path(Reference::SameSamples, &scenes[0]));

@@ -204,7 +204,7 @@ fn first_hits_of_planes() {
             assert!(DVec3::new(r, g, b).abs_diff_eq(expected, 1e-12) && alpha == 1.0, "{told:?} {found:?} {expected}");
             assert!((found.depth - depth).abs() < 1e-12);
             // The first sample inside lies behind, by less than a step.
-            scene.rate = 100.0;
+            scene.step = volume.mean_spacing() / 100.0;
             let sampled = same_samples::Renderer::new(&scene).expect("the scene makes sense").pixel(3, 4);
             assert!((0.0..0.01).contains(&(sampled.depth - depth)), "{} {depth}", sampled.depth);
         }
@@ -261,7 +261,8 @@ fn samples_converge_to_the_exact_picture() {
             GradientOperator::Sobel,
         ] {
             let mut scene = noisy_scene(&volume);
-            (scene.method, scene.shading, scene.gradient, scene.rate) = (method, shading, gradient, 100.0);
+            (scene.method, scene.shading, scene.gradient) = (method, shading, gradient);
+            scene.step /= 100.0;
             let expected = exact::render(&scene).expect("the scene makes sense");
             let found = same_samples::render(&scene).expect("the scene makes sense");
             let errors = Comparison::new(&found.color, &expected.color).expect("pictures of one size").pixels;
@@ -291,7 +292,7 @@ fn every_light_is_integrated() {
             scene.shading = Some(Shading { two_sided, light_direction, gradient_fade: 0.02, ..light });
             let found = exact::render(&scene).expect("the scene makes sense");
             let error = |rate: f64| {
-                let scene = Scene { rate, ..scene.clone() };
+                let scene = Scene { step: scene.step / rate, ..scene.clone() };
                 let sampled = same_samples::render(&scene).expect("the scene makes sense");
                 Comparison::new(&sampled.color, &found.color).expect("pictures of one size").pixels.mean
             };
@@ -338,7 +339,7 @@ fn lit_integrals_are_right_to_a_billionth() {
         // Midpoints with steps so small that bends, jumps and knots cost less than the bound below.
         let marched = |rate| {
             let mut scene = scene.clone();
-            scene.rate = rate;
+            scene.step /= rate;
             same_samples::render(&scene).expect("the scene makes sense").pixel(0, 0)
         };
         let error = |rate| (0..4).map(|i| (marched(rate)[i] - expected[i]).abs()).fold(0.0, f64::max);

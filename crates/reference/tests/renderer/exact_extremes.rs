@@ -133,7 +133,7 @@ fn rays_along_faces_edges_and_centers() {
     let volume = volume(dims, filling(dims, DVec3::ZERO, DVec3::splat(4.0)), noise);
     let exact_and_sampled = |y: f64, z: f64| {
         let mut scene = Scene::new(&volume, colorful(), along_x(y, z), [1, 1]);
-        (scene.rate, scene.reference_length) = (4000.0, 2.0);
+        (scene.step, scene.reference_length) = (scene.step / 4000.0, 2.0);
         let sampled = same_samples::render(&scene).expect("the scene makes sense").pixel(0, 0);
         (pixel(&scene), sampled)
     };
@@ -148,7 +148,7 @@ fn rays_along_faces_edges_and_centers() {
     let mut scene = Scene::new(&volume, colorful(), camera, [1, 1]);
     scene.reference_length = 2.0;
     let found = pixel(&scene);
-    scene.rate = 4000.0;
+    scene.step /= 4000.0;
     let expected = same_samples::render(&scene).expect("the scene makes sense").pixel(0, 0);
     assert!((0..4).all(|i| (found[i] - expected[i]).abs() < 1e-6), "{found:?} {expected:?}");
 }
@@ -203,7 +203,7 @@ fn gaps_are_left_out() {
     let knots = vec![Knot::new(0.0, [0.0; 3], 0.5), Knot::new(1.0, [1.0; 3], 0.5)];
     (scene.method, scene.classification) = (Method::Mean, TransferFunction { knots }.into());
     assert!((pixel(&scene)[0] / pixel(&scene)[3] - 0.5).abs() < 1e-14);
-    scene.rate = 6000.0;
+    scene.step /= 6000.0;
     let sampled = same_samples::render(&scene).expect("the scene makes sense").pixel(0, 0);
     assert!((sampled[0] / sampled[3] - 0.5).abs() < 1e-4);
     // No surface is crossed in a gap: the ray meets the one behind.

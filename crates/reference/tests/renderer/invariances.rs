@@ -2,6 +2,7 @@
 
 use crate::scenes::*;
 use glam::{DAffine3, DMat3, DVec3};
+use rayloom_reference::field::Sampling;
 use rayloom_reference::ray::AxisBox;
 use rayloom_reference::same_samples::{Renderer, render};
 use rayloom_reference::shading::Shading;
@@ -22,7 +23,7 @@ fn camera() -> Camera {
 fn shaded<'a>(volume: &'a Volume, camera: Camera) -> Scene<'a> {
     let mut scene = Scene::new(volume, colorful(), camera, [24, 20]);
     scene.shading = Some(Shading { gradient_fade: 0.05, ..Shading::default() });
-    (scene.reference_length, scene.rate) = (0.2, 1.3);
+    (scene.reference_length, scene.step) = (0.2, scene.step / 1.3);
     scene
 }
 
@@ -99,10 +100,10 @@ fn front_half_over_back_half_is_the_whole() {
         part.clip = AxisBox { min: DVec3::new(from, 0.0, 0.0), max: DVec3::new(to, 1.0, 1.0) };
         render(&part).expect("the scene makes sense")
     };
-    // Along x the cut falls between two samples, so that both halves keep the lattice.
+    // Along x the cut falls between two steps, so that no step is shared.
     let volume_of_noise = noisy();
     let mut scene = shaded(&volume_of_noise, Camera { eye: DVec3::new(-3.0, 0.3, 0.3), ..along_x(0.3, 0.3) });
-    scene.rate = 3.0;
+    scene.step = volume_of_noise.mean_spacing() / 3.0;
     assert_equal(&over(&cut(&scene, 0.0, 0.375), &cut(&scene, 0.375, 1.0)), &image(&scene), 1e-12);
     // In a homogeneous volume the lattice does not matter: any cut, any view.
     let homogeneous = volume(DIMS, volume_of_noise.index_to_world, |_| 0.6);
@@ -123,13 +124,40 @@ fn transparent_padding_changes_nothing() {
     let padded_to_world = original.index_to_world * DAffine3::from_translation(DVec3::splat(-2.0));
     let padded = volume(DIMS.map(|n| n + 4), padded_to_world, rim);
     let along = Camera { eye: DVec3::new(-3.0, 0.3, 0.3), ..along_x(0.3, 0.3) };
-    let whole = |volume| Scene { rate: 2.0, reference_length: 0.05, ..shaded(volume, along) };
-    assert_equal(&image(&whole(&padded)), &image(&whole(&original)), 1e-12);
-    // Seen through a window onto the original, from anywhere.
+    // The padding is whole steps deep.
+    let step = 0.5 * original.mean_spacing();
+    let whole = |volume| Scene { step, reference_length: 0.05, ..shaded(volume, along) };
+    let expected = image(&whole(&original));
+    assert_equal(&image(&whole(&padded)), &expected, 1e-12);
+    // Seen through a window onto the original.
     let low = DVec3::splat(2.0) / padded.dims_f64();
-    let window = AxisBox { min: low, max: DVec3::ONE - low };
-    let through = |volume, clip| Scene { clip, reference_length: 0.05, ..shaded(volume, camera()) };
-    assert_equal(&image(&through(&padded, window)), &image(&through(&original, AxisBox::UNIT)), 1e-12);
+    let clip = AxisBox { min: low, max: DVec3::ONE - low };
+    assert_equal(&image(&Scene { clip, ..whole(&padded) }), &expected, 1e-12);
+}
+
+/// A clip and a near plane shorten the segments they cut and leave all others where they were, to the last bit.
+#[test]
+fn cuts_move_no_samples() {
+    let dims = [32, 24, 20];
+    let to_world = filling(dims, DVec3::ZERO, DVec3::new(1.0, 0.75, 0.625));
+    let clip = AxisBox { min: DVec3::new(0.11, 0.07, 0.23), max: DVec3::new(0.83, 0.91, 0.77) };
+    let forward = (camera().focus - camera().eye).normalize();
+    let near = 0.95 * (camera().focus - camera().eye).length();
+    // What is visible keeps away from the cuts, so that they cut transparent segments only.
+    let margin = 0.06;
+    let [low, high] = [clip.min, clip.max].map(|corner| corner * DVec3::new(1.0, 0.75, 0.625));
+    let visible = |p: DVec3| {
+        let within = p.cmpge(low + margin).all() && p.cmple(high - margin).all();
+        within && (p - camera().eye).dot(forward) > near + margin
+    };
+    let volume = volume(dims, to_world, |p| if visible(p) { 0.2 + noise(p) } else { 0.0 });
+    let mut scene = shaded(&volume, camera());
+    (scene.shading, scene.jitter, scene.sampling) = (None, Some(7), Sampling::Nearest);
+    let whole = image(&scene);
+    let behind = Camera { near: Some(near), ..camera() };
+    for (clip, camera) in [(clip, camera()), (AxisBox::UNIT, behind), (clip, behind)] {
+        assert_eq!(image(&Scene { clip, camera, ..scene.clone() }).color, whole.color);
+    }
 }
 
 #[test]
@@ -168,8 +196,8 @@ fn senseless_scenes_are_refused() {
     let senseless = [
         Scene { channel: 1, ..good.clone() },
         Scene { size: [0, 4], ..good.clone() },
-        Scene { rate: 0.0, ..good.clone() },
-        Scene { rate: f64::INFINITY, ..good.clone() },
+        Scene { step: 0.0, ..good.clone() },
+        Scene { step: f64::INFINITY, ..good.clone() },
         Scene { reference_length: f64::NAN, ..good.clone() },
         Scene { early_termination: Some(-1.0), ..good.clone() },
     ];

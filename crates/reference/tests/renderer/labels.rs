@@ -86,7 +86,7 @@ fn values_inside_of_a_label() {
     assert!((image.depth[0] - (10.0 + place(0.2))).abs() < 1e-12);
     // Samples come to it by the first power of the step.
     let error = |rate: f64| {
-        let scene = Scene { rate, ..scene.clone() };
+        let scene = Scene { step: scene.step / rate, ..scene.clone() };
         (same_samples::render(&scene).expect("the scene makes sense").pixel(0, 0)[3] - expected).abs()
     };
     assert!(error(1000.0) < 1e-3 && error(100_000.0) < 1e-5, "{} {}", error(1000.0), error(100_000.0));

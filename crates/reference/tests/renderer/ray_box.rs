@@ -86,7 +86,8 @@ fn homogeneous_boxes_from_everywhere() {
                     let mut camera = Camera { up, ..Camera::perspective(eye, center - outward, 40.0) };
                     let check = |camera: Camera, chord: f64| {
                         let mut scene = Scene::new(&volume, uniform([1.0; 3], 1.0), camera, [1, 1]);
-                        (scene.reference_length, scene.rate) = (reach, 0.7);
+                        scene.reference_length = reach;
+                        scene.step /= 0.7;
                         let pixel = Renderer::new(&scene).expect("the scene makes sense").pixel(0, 0);
                         let expected = homogeneous_opacity(1.0, chord);
                         let found = pixel.color[3];
