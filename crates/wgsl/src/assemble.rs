@@ -9,6 +9,7 @@ use crate::diagnostic::{Diagnostic, Origin, SourceMap};
 use crate::lexer::{line_and_column, module_scope_names, tokens};
 use crate::library::{Library, SourceKind};
 use crate::limits;
+use crate::moved::moved;
 use crate::rename::{Renaming, loops};
 use crate::shake::used_lines;
 use crate::skeleton::Skeleton;
@@ -119,6 +120,7 @@ fn place_problems(place: &Place, places: &[&Place], head: &str) -> Vec<Diagnosti
         let others = places.iter().filter(|other| other.prefix() != place.prefix() && !other.is_of_program());
         let foreign: Vec<_> = others.flat_map(|other| other.private_names(head)).collect();
         problems.extend(limits::breaches(place.path(), place.snippet.text(), &foreign));
+        problems.extend(moved(place.path(), place.snippet.text()));
     }
     problems
 }

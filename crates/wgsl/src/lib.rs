@@ -39,6 +39,7 @@ mod interface;
 mod lexer;
 mod library;
 mod limits;
+mod moved;
 mod rename;
 mod shake;
 mod skeleton;

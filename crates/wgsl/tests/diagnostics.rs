@@ -373,3 +373,18 @@ fn loops_of_a_users_own_are_bounded_and_keep_their_places() {
     let problem = validate(&library, assemble(&library, &choice).expect("assembled")).expect_err("broken");
     assert_eq!((problem.line, problem.column), (4, 49), "{problem}");
 }
+
+#[test]
+fn a_snippet_for_an_earlier_contract_is_told_what_to_change() {
+    let old = "//! slot: compositing\nstruct State { color: vec4f }\nfn begin() -> State { return State(vec4f(0.0)); }\nfn add(state: ptr<function, State>, ray: Ray, s: Sample) {\n    (*state).color += vec4f(s.along * ray.step_length, frame.dims);\n}\nfn done(state: State) -> bool { return false; }\nfn finish(state: State, ray: Ray) -> Result { return Result(state.color, -1.0); }\n";
+    let found = problem(Slot::Compositing, old).expect("refused");
+    let told: Vec<_> = found.lines().filter(|line| line.starts_with("edited/")).collect();
+    insta::assert_snapshot!(told.join("\n"), @r"
+    edited/compositing.wgsl:5:31: `s.along` is of an earlier contract; write `distance`: places on a ray are distances in reference lengths
+    edited/compositing.wgsl:5:43: `ray.step_length` is of an earlier contract; leave it out: distances are in reference lengths already
+    edited/compositing.wgsl:5:62: `frame.dims` is of an earlier contract; write `source.dims`: a volume's data are reached through its source
+    ");
+    // Names of its own may be what they like.
+    let own = "//! slot: compositing\nstruct State { along: f32 }\nfn begin() -> State { return State(0.0); }\nfn add(state: ptr<function, State>, ray: Ray, s: Sample) {\n    (*state).along += s.length;\n}\nfn done(state: State) -> bool { return false; }\nfn finish(state: State, ray: Ray) -> Result { return Result(vec4f(state.along), -1.0); }\n";
+    assert_eq!(problem(Slot::Compositing, own), None);
+}
