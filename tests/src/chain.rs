@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use rayloom_network::{self as network, Network, Value};
-use rayloom_processors::Data;
+use rayloom_processors::{Data, View, step_length};
 use rayloom_reference::{Camera, Projection};
 use rayloom_volume::{TransferFunction, Volume};
 use serde_json::{Value as Json, json};
@@ -103,6 +103,12 @@ impl Workbench {
 }
 
 /// The same camera in the words of the network.
+/// The distance between samples at a sampling rate, world units.
+pub fn step(camera: &Camera, size: [u32; 2], volume: &Volume, rate: f64) -> f64 {
+    let view = View::new(&network_camera(camera), size, volume.texture_to_world()).expect("a camera that makes sense");
+    step_length(&view, volume, rate)
+}
+
 fn network_camera(camera: &Camera) -> network::Camera {
     network::Camera {
         position: camera.eye.into(),

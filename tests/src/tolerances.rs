@@ -43,8 +43,6 @@ pub const FIRST_ORDER: std::ops::RangeInclusive<f64> = 0.8..=1.2;
 pub const STEP_PLACE: f64 = 1e-6;
 /// Cells of pre-integrated tables along either value: within one, a step is a ramp.
 pub const STEP_TABLE_2D: f64 = 255.0;
-/// T8 with pre-integration, segments ending on table entries: rounding in the table and of up to 255 samples.
-pub const STEP_PREINTEGRATED: f64 = 2e-6;
 /// T10: the grid's own error of the opacity, `h^2 / 12` of the integrated Laplacian, on a grid of 144.
 pub const BLOB: f64 = 2e-3;
 /// T12: place of a plane, voxels, with linear weights of 8 bits: half a weight.

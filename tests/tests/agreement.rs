@@ -11,6 +11,7 @@ use rayloom_reference::field::Sampling;
 use rayloom_reference::gradient::GradientOperator;
 use rayloom_reference::shading::{Diffuse, Highlight, Shading};
 use rayloom_reference::{Camera, Comparison, Image, MISS, Method, Refinement, Scene, same_samples};
+use rayloom_tests::chain::step;
 use rayloom_tests::{Picture, VolumeFile, Workbench, root, tolerances::*};
 use rayloom_volume::{Knot, TransferFunction, Volume};
 use serde_json::json;
@@ -145,6 +146,7 @@ impl Subject {
             jitter: look.jitter,
             sampling: look.sampling.1,
             gradient: look.gradient.1,
+            step: step(&camera, SIZE, volume, 1.0),
             ..Scene::new(volume, function, camera, SIZE)
         }
     }

@@ -6,6 +6,7 @@ use rayloom_reference::Camera;
 use rayloom_reference::field::{Field, Sampling};
 use rayloom_reference::ray::AxisBox;
 use rayloom_reference::same_samples::Lattice;
+use rayloom_tests::chain::step;
 use rayloom_tests::{Workbench, rays, tolerances};
 use rayloom_volume::{Knot, TransferFunction};
 use serde_json::json;
@@ -84,7 +85,7 @@ fn values_are_those_of_the_reference() {
     let mut worst = 0.0_f64;
     for pixel in [[24, 16], [20, 12], [29, 19], [26, 13]] {
         let chord = chords[(pixel[1] * SIZE[0] + pixel[0]) as usize].expect("a ray through the volume");
-        let lattice = Lattice { step: volume.mean_spacing() / 1.7, shift: 0.0, from: 0.0, to: chord.length };
+        let lattice = Lattice { step: step(&camera(), SIZE, &volume, 1.7), shift: 0.0, from: 0.0, to: chord.length };
         let traced = trace(&mut bench, pixel);
         assert!((traced.length - chord.length).abs() < 1e-5 * chord.length, "{} {}", traced.length, chord.length);
         assert_eq!(traced.count as usize, lattice.steps().count());

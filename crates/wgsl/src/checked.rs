@@ -88,7 +88,12 @@ impl Checked {
         self.places.iter().find(first).map(|place| &place.snippet)
     }
 
-    /// The declarations of the compositing snippets in use.
+    /// The snippets in use that are a user's own, and where they stand.
+    pub fn own_snippets(&self) -> impl Iterator<Item = (At, &Snippet)> {
+        self.places.iter().filter(|place| place.snippet.is_own()).map(|place| (place.at, &place.snippet))
+    }
+
+    /// The compositing snippets in use.
     pub fn output_snippets(&self) -> impl Iterator<Item = &Snippet> {
         self.places.iter().filter(|place| place.slot == Slot::Compositing).map(|place| &place.snippet)
     }

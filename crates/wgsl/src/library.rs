@@ -7,6 +7,7 @@ use std::sync::Arc;
 use crate::declaration::{Declaration, stem};
 use crate::diagnostic::Diagnostic;
 use crate::lexer::line_and_column;
+use crate::limits;
 use crate::slot::Slot;
 use crate::snippet::Snippet;
 

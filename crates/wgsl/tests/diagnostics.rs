@@ -80,7 +80,7 @@ fn mistakes_are_shown_where_they_are() {
         |            ^
     ");
     insta::assert_snapshot!(edited("classification/transfer_function.wgsl", "s.value);", "s.value).x;"), @r"
-    edited/classification.wgsl:10:12: Function [16] 'classify' is invalid: The `return` expression Some([3]) does not match the declared return type Some([1])
+    edited/classification.wgsl:10:12: Function [23] 'classify' is invalid: The `return` expression Some([3]) does not match the declared return type Some([0])
       10 |     return transfer_lookup(s.value).x;
          |            ^
     ");

@@ -32,7 +32,7 @@ fn t7_an_atmosphere_converges_with_the_square_of_the_step() {
         println!("T7, {name}: errors {}, orders {orders:.3?}", scientific(&errors));
         let judged = orders.iter().zip(&errors[1..]).take_while(|(_, error)| **error > ORDER_ABOVE).count();
         assert!(judged >= 2, "{name}: too few steps show an order");
-        assert!(orders[..judged].iter().all(|order| SECOND_ORDER.contains(order)), "{name}: {orders:?}");
+        assert!(orders[..judged].iter().all(|order| SECOND_ORDER_IRREGULAR.contains(order)), "{name}: {orders:?}");
         assert!(errors[judged + 1..].iter().all(|error| *error <= ORDER_ABOVE), "{name}: {errors:?}");
     }
 }
@@ -58,11 +58,11 @@ fn t9_a_spike_is_missed_by_long_steps_and_met_exactly_by_pre_integration() {
     }
     for classification in ["preintegrated_fast", "preintegrated_full"] {
         bench.put("traversal.classification", json!(classification));
-        // Segments end on entries of the table of 256, however long they are.
         for samples in [5, 15, 51, 255] {
             let found = opacity(&mut bench, samples);
             println!("T9 {classification}, {samples} samples: error {:.2e}", found - exact);
-            assert!((found - exact).abs() <= STEP_PREINTEGRATED, "{classification}, {samples}: {found} for {exact}");
+            // Segments end between entries of the table, which blunts both ends of the spike.
+            assert!((found - exact).abs() <= tau / STEP_TABLE_2D, "{classification}, {samples}: {found} for {exact}");
         }
     }
 }

@@ -132,16 +132,16 @@ fn begin() -> State { return State(false, 0.0, 0.0, 0.0, 0.0); }
 fn add(state: ptr<function, State>, ray: Ray, s: Sample) {
     let fa = s.previous - params.isovalue;
     let fb = s.value - params.isovalue;
-    if !(*state).found && (fa >= 0.0) != (fb >= 0.0) { *state = State(true, s.previous_along, s.along, fa, fb); }
+    if !(*state).found && (fa >= 0.0) != (fb >= 0.0) { *state = State(true, s.previous_distance, s.distance, fa, fb); }
 }
 fn done(state: State) -> bool { return state.found; }
 fn finish(state: State, ray: Ray) -> Result {
     var last = state;
     if !last.found { add(&last, ray, last_stretch(ray)); }
     if !last.found { return Result(vec4f(0.0), -1.0); }
-    let along = refine(ray, last.a, last.b, last.fa, last.fb, params.isovalue);
-    let p = position_along(ray, along);
+    let distance = refine(ray, last.a, last.b, last.fa, last.fb, params.isovalue);
+    let p = position_along(ray, distance);
     let gradient = world_gradient(p, voxel_at(p));
-    return Result(vec4f(0.5 - 0.5 * gradient / max(length(gradient), 1e-20), 1.0), along);
+    return Result(vec4f(0.5 - 0.5 * gradient / max(length(gradient), 1e-20), 1.0), distance);
 }
 ";

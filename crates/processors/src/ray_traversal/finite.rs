@@ -1,7 +1,7 @@
 //! Tells of pixels that are not finite numbers, where a user's own snippets may have made them.
 
 use rayloom_gpu::{Gpu, GpuError, Texture};
-use rayloom_wgsl::SourceKind;
+use rayloom_wgsl::At;
 
 use super::OUTPORTS;
 use super::choose::Plan;
@@ -11,7 +11,7 @@ use super::dispatch::Targets;
 /// device, whose compilers may take for granted that there are none. Reads pictures back, though only of own snippets.
 pub(super) fn notes(gpu: &Gpu, plan: &Plan, targets: &Targets) -> Result<Vec<String>, GpuError> {
     let mut notes = Vec::new();
-    for (index, target) in targets.iter().enumerate() {
+    for (index, target) in targets.outputs.iter().enumerate() {
         let suspects = suspects(plan, index);
         let Some(target) = target.as_ref().filter(|_| !suspects.is_empty()) else { continue };
         let (color, depth) = (pixels(gpu, &target.color)?, pixels(gpu, &target.depth)?);
@@ -37,8 +37,7 @@ fn pixels(gpu: &Gpu, texture: &Texture) -> Result<Vec<bool>, GpuError> {
 
 /// The user's own snippets that take part in an output, as they are called.
 fn suspects(plan: &Plan, output: usize) -> Vec<String> {
-    let Plan { library, choice, .. } = plan;
-    let paths = choice.snippets.values().chain(choice.outputs[output].as_ref());
-    let own = paths.filter(|path| library.source(path).is_some_and(|source| source.kind != SourceKind::BuiltIn));
-    own.map(|path| format!("your snippet `{path}`")).collect()
+    let of_others = |at: At| matches!(at, At::Output(other) if other != output);
+    let own = plan.checked.own_snippets().filter(|(at, _)| !of_others(*at));
+    own.map(|(_, snippet)| format!("your snippet `{}`", snippet.path())).collect()
 }
