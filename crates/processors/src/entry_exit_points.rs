@@ -170,7 +170,12 @@ impl Pass {
     ) -> Result<Arc<Texture>, GpuError> {
         let target = context.target(self.outport, size, format)?;
         let depth = context.target("depth test", size, TextureFormat::Depth32Float)?;
-        let pipeline = context.pipelines.render(&context.gpu, "entry/exit points", &plain_shader(SHADER, &[]), &self.state(format))?;
+        let pipeline = context.pipelines.render(
+            &context.gpu,
+            "entry/exit points",
+            &plain_shader(SHADER, &[]),
+            &self.state(format),
+        )?;
         let gpu = &context.gpu;
         gpu.guarded("entry/exit points", || {
             let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {

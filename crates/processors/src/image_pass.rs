@@ -3,8 +3,8 @@
 use rayloom_gpu::wgpu;
 use rayloom_gpu::{GpuError, Texture};
 
-use crate::{Context, plain_shader};
 use crate::explain::{Explanation, Role};
+use crate::{Context, plain_shader};
 
 /// Side of a workgroup; the shaders say `@workgroup_size(8, 8)`.
 const GROUP: u32 = 8;
@@ -46,7 +46,8 @@ impl Context {
             Explanation::new(Role::Computed, format!("{} at {width} x {height} pixels", pass.label), "one pass")
         });
         let gpu = &self.gpu;
-        let pipeline = self.pipelines.compute(gpu, pass.label, &plain_shader(pass.shader, pass.flags), pass.entry_point)?;
+        let pipeline =
+            self.pipelines.compute(gpu, pass.label, &plain_shader(pass.shader, pass.flags), pass.entry_point)?;
         let uniforms = pass
             .bindings
             .iter()

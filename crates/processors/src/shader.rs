@@ -19,7 +19,8 @@ static LIBRARY: OnceLock<Library> = OnceLock::new();
 pub fn plain_shader(path: &'static str, flags: &'static [&'static str]) -> Arc<str> {
     let mut shaders = SHADERS.lock().unwrap_or_else(PoisonError::into_inner);
     let text = shaders.get_or_insert_default().entry((path, flags)).or_insert_with(|| {
-        let library = LIBRARY.get_or_init(|| Library::built_in().expect("the built-in snippets declare themselves well"));
+        let library =
+            LIBRARY.get_or_init(|| Library::built_in().expect("the built-in snippets declare themselves well"));
         let assembled = assemble(library, &Skeleton::plain(path), &Checked::plain(flags));
         assembled.expect("a built-in shader assembles").text.into()
     });

@@ -7,7 +7,7 @@ use crate::checked::{At, Checked, Features, Place, source_prefix};
 use crate::declaration::Parameter;
 use crate::diagnostic::{Diagnostic, Origin, SourceMap};
 use crate::lexer::{line_and_column, module_scope_names, tokens};
-use crate::library::{Library, SourceKind};
+use crate::library::{Library, Source, SourceKind};
 use crate::limits;
 use crate::moved::moved;
 use crate::rename::{Renaming, loops};
@@ -38,6 +38,12 @@ pub struct Assembled {
 }
 
 impl Assembled {
+    /// Whether a file that the shader was made from is a user's own.
+    pub(crate) fn is_own(&self, library: &Library, path: &str) -> bool {
+        let of_library = |source: &Source| source.kind != SourceKind::BuiltIn;
+        self.own.contains_key(path) || library.source(path).is_some_and(of_library)
+    }
+
     /// The text of a file that the shader was made from.
     pub(crate) fn source<'a>(&'a self, library: &'a Library, path: &str) -> &'a str {
         self.own.get(path).map(|text| &**text).or_else(|| Some(&*library.source(path)?.text)).unwrap_or("")
@@ -49,8 +55,7 @@ impl Assembled {
 /// # Errors
 /// A snippet that does not keep its slot's contract, an unknown or cyclic include, a malformed directive: each with file and line.
 pub fn assemble(library: &Library, skeleton: &Skeleton, checked: &Checked) -> Result<Assembled, Vec<Diagnostic>> {
-    let places: Vec<&Place> =
-        checked.places.iter().filter(|place| skeleton.scope(place.slot).is_some()).collect();
+    let places: Vec<&Place> = checked.places.iter().filter(|place| skeleton.scope(place.slot).is_some()).collect();
     let head = library.source(skeleton.path).map_or("", |source| &source.text);
     let problems: Vec<_> = places.iter().flat_map(|place| place_problems(place, &places, head)).collect();
     if !problems.is_empty() {
@@ -88,11 +93,7 @@ pub fn assemble(library: &Library, skeleton: &Skeleton, checked: &Checked) -> Re
 
 /// Without what nothing uses. Texts of a user's own stay whole, so that what is wrong in them is found.
 fn shaken(mut assembled: Assembled, library: &Library) -> Assembled {
-    let is_own = |line: usize| {
-        let file = &assembled.map.lines[line].file;
-        assembled.own.contains_key(file)
-            || library.source(file).is_some_and(|source| source.kind != SourceKind::BuiltIn)
-    };
+    let is_own = |line: usize| assembled.is_own(library, &assembled.map.lines[line].file);
     let used = used_lines(&assembled.text, is_own);
     let kept = |line: &usize| used.get(*line).copied().unwrap_or(true);
     let lines = assembled.text.lines().enumerate().filter(|(line, _)| kept(line));

@@ -44,16 +44,17 @@ impl Source<'_> {
 
 /// Those that are there to say that nothing is.
 fn present(snippets: &BTreeMap<Slot, Snippet>) -> BTreeMap<Slot, &Snippet> {
-    snippets.iter().filter(|(_, snippet)| !snippet.declaration().absent).map(|(slot, snippet)| (*slot, snippet)).collect()
+    snippets
+        .iter()
+        .filter(|(_, snippet)| !snippet.declaration().absent)
+        .map(|(slot, snippet)| (*slot, snippet))
+        .collect()
 }
 
 fn misplaced(snippets: &BTreeMap<Slot, Snippet>) -> Option<Problem> {
     let (&slot, snippet) = snippets.iter().find(|(slot, snippet)| snippet.declaration().slot != **slot)?;
-    let message = format!(
-        "`{}` is a {} snippet and cannot fill the slot {slot}.",
-        snippet.path(),
-        snippet.declaration().slot
-    );
+    let message =
+        format!("`{}` is a {} snippet and cannot fill the slot {slot}.", snippet.path(), snippet.declaration().slot);
     Some(Problem { slot, message })
 }
 
@@ -136,9 +137,9 @@ impl<'a> Used<'a> {
         }
         let shading = self.once.get(&Slot::Shading).filter(|snippet| snippet.reads("gradient"));
         let classification = source.snippets.get(&Slot::Classification).filter(|snippet| snippet.reads("gradient"));
-        let reader = shading.or(classification).map_or("the output".to_owned(), |snippet| {
-            format!("{} `{}`", snippet.declaration().slot, snippet.id())
-        });
+        let reader = shading
+            .or(classification)
+            .map_or("the output".to_owned(), |snippet| format!("{} `{}`", snippet.declaration().slot, snippet.id()));
         Some(empty(
             Slot::Gradient,
             format!(
@@ -216,7 +217,9 @@ impl<'a> Used<'a> {
             return None;
         }
         let values = |snippet: &Snippet| {
-            ["previous", "medium_at", "classify_value", "surface", "gradient", "voxel"].iter().any(|word| snippet.reads(word))
+            ["previous", "medium_at", "classify_value", "surface", "gradient", "voxel"]
+                .iter()
+                .any(|word| snippet.reads(word))
                 || !snippet.reads("medium")
         };
         if let Some((_, output)) = self.outputs.iter().find(|(_, output)| values(output)) {
@@ -338,6 +341,7 @@ impl<'a> Used<'a> {
         let any = |test: &dyn Fn(&Source<'_>) -> bool| self.sources.iter().any(test);
         let classified_gradient = any(&|source| source.reads(Slot::Classification, "gradient"));
         let switches = [
+            ("own", self.sources.iter().flat_map(|source| self.all(source)).any(Snippet::is_own)),
             ("bounded", bounded),
             ("segment_ends", self.segment_ends()),
             ("previous", self.previous()),

@@ -90,7 +90,8 @@ impl Library {
         let snippet = Snippet::parse(&path, text, SourceKind::User)?;
         let slot = snippet.declaration().slot;
         if let Some(known) = self.path(slot, stem(file)).filter(|known| **known != *path) {
-            let message = format!("`{known}` is already the {slot} snippet `{}`; give this file another name", stem(file));
+            let message =
+                format!("`{known}` is already the {slot} snippet `{}`; give this file another name", stem(file));
             return Err(Diagnostic::new(&path, 1, 0, message));
         }
         self.add(snippet);

@@ -6,7 +6,7 @@ use crate::assemble::Assembled;
 use crate::diagnostic::Diagnostic;
 use crate::footprint;
 use crate::interface::Interface;
-use crate::library::{Library, SourceKind};
+use crate::library::Library;
 
 /// A shader that naga accepts, ready for a device.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,8 +57,7 @@ fn own_places<'a>(library: &'a Library, assembled: &'a Assembled) -> impl Fn(nag
     move |span| {
         let Some(start) = span.to_range().map(|range| range.start) else { return false };
         let line = ends.partition_point(|end| *end < start);
-        let source = assembled.map.lines().get(line).and_then(|origin| library.source(&origin.file));
-        source.is_some_and(|source| source.kind != SourceKind::BuiltIn)
+        assembled.map.lines().get(line).is_some_and(|origin| assembled.is_own(library, &origin.file))
     }
 }
 

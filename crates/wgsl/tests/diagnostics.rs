@@ -161,8 +161,7 @@ fn only_what_is_read_is_emitted() {
         text
     };
     let unshaded = lines(&choice(&library, &[(Slot::Shading, "none")], "dvr"));
-    for absent in
-        ["fn gradient_at", "fn shade", "fn refine", "skip_map", "preintegrated_table", "label_table", "out2_"]
+    for absent in ["fn gradient_at", "fn shade", "fn refine", "skip_map", "preintegrated_table", "label_table", "out2_"]
     {
         assert!(!unshaded.contains(absent), "{absent}");
     }
@@ -296,10 +295,7 @@ fn monstrous_texts_are_refused_in_time() {
         "/*".repeat(60_000),
     ] {
         if let Some(message) = shading_with("", &body) {
-            assert!(
-                message.starts_with("edited/shading.wgsl:") || message.starts_with("shader: "),
-                "{message:.200}"
-            );
+            assert!(message.starts_with("edited/shading.wgsl:") || message.starts_with("shader: "), "{message:.200}");
         }
     }
 }

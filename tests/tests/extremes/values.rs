@@ -320,7 +320,8 @@ fn e40_e41_steps_and_spikes_narrower_than_a_sample() {
     for width in [0.1, 0.01, 0.002, 0.0002] {
         let expected = homogeneous_opacity(tau, width * length);
         // Less than an entry is too narrow for pre-integration, whose segments end anywhere between entries.
-        let classifications: &[_] = if width < 1.0 / STEP_TABLE_2D { &[] } else { &["preintegrated_fast", "preintegrated_full"] };
+        let classifications: &[_] =
+            if width < 1.0 / STEP_TABLE_2D { &[] } else { &["preintegrated_fast", "preintegrated_full"] };
         for classification in classifications {
             for samples in [3, 4, 5, 17] {
                 let found = through_ramp(&mut bench, &spike(0.43, width), classification, samples);

@@ -14,7 +14,7 @@ use damage::Random;
 use rayloom_network::{Network, Value};
 use rayloom_tests::{root, types};
 use rayloom_volume::ValueRange;
-use rayloom_wgsl::{Choice, Library, Slot, assemble, validate};
+use rayloom_wgsl::{Choice, Library, Skeleton, Slot, Snippet, assemble, validate};
 
 /// Inputs of each target where no time is given.
 const FEW: usize = 300;
@@ -141,27 +141,23 @@ fn transfer_functions() {
 #[test]
 fn snippets() {
     let library = Library::built_in().expect("built-in snippets");
-    let all: Vec<_> =
-        Slot::ALL.into_iter().flat_map(|slot| library.snippets(slot)).map(|(path, _)| path.clone()).collect();
-    let seed = |path: &std::sync::Arc<str>| {
-        let text = library.source(path).map(|source| source.text.clone()).unwrap_or_default();
-        Seed { name: path.replace('/', "_"), bytes: text.as_bytes().to_vec() }
-    };
+    let all: Vec<&Snippet> = Slot::ALL.into_iter().flat_map(|slot| library.all(slot)).collect();
+    let seed =
+        |snippet: &&Snippet| Seed { name: snippet.path().replace('/', "_"), bytes: snippet.text().as_bytes().to_vec() };
     let seeds: Vec<Seed> = all.iter().map(seed).collect();
     let mut valid = 0;
     fuzz("snippets", &seeds, |name, bytes, random| {
         let slot = Slot::ALL.into_iter().find(|slot| name.starts_with(slot.id())).expect("named after its slot");
-        let mut library = library.clone();
-        let Ok(edited) = library.add_edited(slot.id(), slot, &String::from_utf8_lossy(bytes)) else { return };
+        let Ok(edited) = Snippet::edited(slot.id(), slot, &String::from_utf8_lossy(bytes)) else { return };
         let mut any = |slot| {
-            let paths: Vec<_> = library.snippets(slot).map(|(path, _)| path.clone()).collect();
-            paths[random.below(paths.len())].clone()
+            let snippets: Vec<_> = library.all(slot).collect();
+            snippets[random.below(snippets.len())].clone()
         };
         let mut chosen: BTreeMap<_, _> = Slot::ALL.into_iter().map(|slot| (slot, any(slot))).collect();
         chosen.insert(slot, edited);
         let output = chosen.remove(&Slot::Compositing);
-        let choice = Choice::of(chosen, [output, None, None]);
-        if let Ok(assembled) = assemble(&library, &choice) {
+        let Ok(checked) = Choice::of(chosen, [output, None, None]).check(&library) else { return };
+        if let Ok(assembled) = assemble(&library, &Skeleton::TRAVERSAL, &checked) {
             valid += usize::from(validate(&library, assembled).is_ok());
         }
     });

@@ -46,7 +46,8 @@ impl Frame {
             LightSpace::World => light.direction.into(),
         };
         let error = properties.f64("termination_error")?;
-        let step = step_length(view, volume, properties.f64("sampling_rate")?).max(diagonal(volume) / f64::from(most_samples));
+        let step =
+            step_length(view, volume, properties.f64("sampling_rate")?).max(diagonal(volume) / f64::from(most_samples));
         Ok(Self {
             chord: [chord(0), chord(1), chord(2)],
             pixel_to_device: [2.0 / width, -2.0 / height, -1.0, 1.0],

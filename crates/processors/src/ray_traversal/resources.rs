@@ -68,7 +68,11 @@ struct Row {
 const TABLE: [Row; 16] = [
     Row { name: "frame", purpose: "what all rays share: view, step, light", make: |making| making.frame() },
     Row { name: "source", purpose: "the volume's place, values and bricks", make: |making| making.source() },
-    Row { name: "params", purpose: "numbers of the snippets; changing one assembles nothing", make: |making| making.parameters() },
+    Row {
+        name: "params",
+        purpose: "numbers of the snippets; changing one assembles nothing",
+        make: |making| making.parameters(),
+    },
     Row { name: "volume", purpose: "what is sampled", make: |making| making.volume() },
     Row {
         name: "linear_sampler",
@@ -95,7 +99,11 @@ const TABLE: [Row; 16] = [
         purpose: "classification looks values and gradient magnitudes up",
         make: |making| making.transfer_table_2d(),
     },
-    Row { name: "preintegrated_table", purpose: "classification looks up pairs of values", make: |making| making.preintegrated() },
+    Row {
+        name: "preintegrated_table",
+        purpose: "classification looks up pairs of values",
+        make: |making| making.preintegrated(),
+    },
     Row {
         name: "label_volume",
         purpose: "classification goes by labels",
@@ -103,7 +111,11 @@ const TABLE: [Row; 16] = [
     },
     Row { name: "label_table", purpose: "classification goes by labels", make: |making| making.label_table() },
     Row { name: "skip_map", purpose: "tells empty bricks", make: |making| making.skip_map() },
-    Row { name: "gap_map", purpose: "tells voxels without a value, which are not drawn", make: |making| making.gap_map() },
+    Row {
+        name: "gap_map",
+        purpose: "tells voxels without a value, which are not drawn",
+        make: |making| making.gap_map(),
+    },
     Row {
         name: "counters",
         purpose: "samples are counted",

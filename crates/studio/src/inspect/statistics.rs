@@ -65,7 +65,12 @@ pub struct Statistics {
 /// The device refuses or is lost.
 pub fn statistics(gpu: &Gpu, pipelines: &Mutex<PipelineCache>, image: &Image) -> Result<Statistics, GpuError> {
     let label = "image statistics";
-    let pipeline = pipelines.lock().unwrap_or_else(PoisonError::into_inner).compute(gpu, label, &plain_shader(SHADER, &[]), "main")?;
+    let pipeline = pipelines.lock().unwrap_or_else(PoisonError::into_inner).compute(
+        gpu,
+        label,
+        &plain_shader(SHADER, &[]),
+        "main",
+    )?;
     let hits_only = matches!(image.kind, ImageKind::EntryPoints | ImageKind::ExitPoints);
     let bounded = hits_only || image.kind == ImageKind::Color;
     let parameters =
