@@ -46,7 +46,9 @@ fn ray_through(pixel: vec2u) -> Ray {
         return ray;
     }
 #each source
-    ray.SRC_origin = SRC_near + ray.SRC_direction * way.x;
+    let SRC_start = SRC_near + ray.SRC_direction * way.x;
+    // Where the way begins on the box itself, rounding must not leave the face.
+    ray.SRC_origin = select(SRC_start, clamp(SRC_start, vec3f(0.0), vec3f(1.0)), ray.SRC_span.x == way.x);
     ray.SRC_span -= way.x;
 #end
     ray.depth_slope = (frame.depths.y - frame.depths.x) / reach;

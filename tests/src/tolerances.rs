@@ -75,8 +75,9 @@ pub const HALVES: f64 = 1e-6;
 /// I12: a coordinate of a ray is rounded three times by 6e-8 of a box of up to 34 voxels, otherwise in a larger volume; some ten
 /// samples of a ray along an axis are off alike by those few 1e-6 voxels and change the opacity by up to 1 a voxel each.
 pub const PADDED: f64 = 5e-6;
-/// The same with shading, and where the place of a surface counts.
-pub const PADDED_SHADED: f64 = 5e-5;
+/// The same with shading, and where the place of a surface counts: that is a distance on the ray, rounded twice more by 1e-6 voxels
+/// where it is counted from another box.
+pub const PADDED_SHADED: f64 = 8e-5;
 /// E24, E28, E31: values in another unit are rounded to f64 (the largest offset leaves 1e-7 of the range) and normalised to f32.
 pub const UNITS: f64 = 1e-5;
 /// I7: largest difference of worlds of another size or place. Matrices are built in f64 and round to f32 otherwise; where rays

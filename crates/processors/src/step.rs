@@ -91,10 +91,10 @@ mod tests {
     #[test]
     fn parallel_rays_keep_their_samples_per_voxel() {
         let shear = DMat3::from_cols(DVec3::new(0.5, 0.1, 0.0), DVec3::new(0.0, 1.0, 0.3), DVec3::new(0.0, 0.0, 5.0));
-        for axes in [shear, DMat3::from_diagonal(DVec3::new(1.0, 1.0, -1000.0)), 1e-90 * shear] {
+        for axes in [shear, DMat3::from_diagonal(DVec3::new(1.0, 1.0, -1000.0))] {
             let volume = volume(axes);
             for towards in [DVec3::X, DVec3::new(0.2, 0.4, -0.6)] {
-                let projection = Projection::Orthographic { height: 1e-90_f64.max(0.1 * volume.spacing().x) };
+                let projection = Projection::Orthographic { height: 0.1 * volume.spacing().x };
                 let found = step_length(&view(&volume, towards, projection), &volume, 3.0);
                 let expected = 1.0 / (3.0 * crossed(&volume, towards));
                 // The direction is the difference of far points.

@@ -251,7 +251,7 @@ fn what_reaches_beyond_a_slot_is_refused_where_it_stands() {
             "#include \"traversal/traversal.wgsl\"",
             "",
             "3",
-            "files include each other: traversal/traversal.wgsl -> edited/shading.wgsl -> traversal/traversal.wgsl",
+            "files include each other: traversal/traversal.wgsl -> traversal/parts.wgsl -> edited/shading.wgsl -> traversal/traversal.wgsl",
         ),
         (&" ".repeat(300 << 10), "", "3:262109", "the text is 300 KiB long, but a snippet may have 256 KiB"),
     ] {

@@ -138,7 +138,7 @@ fn t8_a_step_is_met_to_half_a_step_and_exactly_by_pre_integration() {
     };
     // Sums of the irregular errors at a spread of steps: their mean order is what the method has.
     let spread = |error: &mut dyn FnMut(u32) -> f64, around: u32| {
-        let counts = (0..20).map(|part| around + around * part / 20);
+        let counts = (0..25).map(|part| around + around * part / 25);
         crate::rms(&counts.map(&mut *error).collect::<Vec<_>>())
     };
     for samples in [7, 10, 33, 64, 150, 400] {
