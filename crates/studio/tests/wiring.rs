@@ -302,6 +302,7 @@ fn three_hundred_nodes_and_five_hundred_wires_are_drawn() {
 #[test]
 fn a_frame_moves_with_what_is_in_it_and_the_map_goes_there() {
     let mut window = chain();
+    window::wait_until(&mut window, |studio| !studio.session.first_look.is_waiting());
     let at = |window: &Window, id: &str| window.state().session.network().processor(id).expect("there").position();
     let (inside, outside) = (at(&window, "cube_proxy"), at(&window, "canvas"));
     let before = text(&window);

@@ -73,6 +73,8 @@ pub struct NetworkPanel {
     menu_at: Pos2,
     /// Whether the last click was here, so that keys are meant for the canvas.
     attentive: bool,
+    /// Where the pointer was in the last frame.
+    pointer: Option<Pos2>,
     drawing: svg::Drawing,
 }
 
@@ -91,6 +93,7 @@ impl Default for NetworkPanel {
             shows_map: false,
             menu_at: Pos2::ZERO,
             attentive: true,
+            pointer: None,
             drawing: svg::Drawing::default(),
         }
     }
@@ -186,10 +189,13 @@ impl NetworkPanel {
 
     /// Notices whether keys are meant for the canvas: they are once the pointer moved over it, until a click elsewhere.
     fn notice(&mut self, ui: &Ui, area: Rect) {
-        let (pressed, moved) = ui.input(|input| {
+        let (pressed, pointer) = ui.input(|input| {
             let pressed = input.pointer.any_pressed().then(|| input.pointer.interact_pos()).flatten();
-            (pressed, input.pointer.is_moving().then(|| input.pointer.latest_pos()).flatten())
+            (pressed, input.pointer.latest_pos())
         });
+        // Not by how far it moved: a pointer that comes back into the window moved from nowhere.
+        let moved = pointer.filter(|_| pointer != self.pointer);
+        self.pointer = pointer;
         if let Some(at) = pressed {
             self.attentive = area.contains(at);
         } else if moved.is_some_and(|at| area.contains(at)) {
