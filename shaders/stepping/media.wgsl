@@ -1,10 +1,11 @@
 //! slot: stepping
 //! help: Every sample, classified and lit where it is visible.
 
-fn next_sample(ray: Ray, walk: ptr<function, Walk>, s: ptr<function, Sample>) -> bool {
-    if !advance(ray, walk) {
-        return false;
-    }
+fn find_sample(ray: Ray, walk: ptr<function, Walk>, s: ptr<function, Sample>) -> bool {
+    return advance(ray, walk);
+}
+
+fn take_sample(ray: Ray, walk: ptr<function, Walk>, s: ptr<function, Sample>) {
     *s = sample_at(ray, place_of(ray, (*walk).index));
     link(walk, s);
     (*s).medium = classify(*s);
@@ -12,5 +13,4 @@ fn next_sample(ray: Ray, walk: ptr<function, Walk>, s: ptr<function, Sample>) ->
         (*s).medium = lit((*s).medium, ray, (*s).position, (*s).voxel, frame.light_direction);
         (*walk).contributing += 1u;
     }
-    return true;
 }

@@ -1,7 +1,7 @@
 //! slot: stepping
 //! help: The next visible sample, looked for before it is lit: rays of a group shade together.
 
-fn next_sample(ray: Ray, walk: ptr<function, Walk>, s: ptr<function, Sample>) -> bool {
+fn find_sample(ray: Ray, walk: ptr<function, Walk>, s: ptr<function, Sample>) -> bool {
     var visible = false;
     while !visible && advance(ray, walk) {
         *s = sample_at(ray, place_of(ray, (*walk).index));
@@ -10,9 +10,10 @@ fn next_sample(ray: Ray, walk: ptr<function, Walk>, s: ptr<function, Sample>) ->
         (*walk).index += 1.0;
         (*walk).taken += 1u;
     }
-    if visible {
-        (*s).medium = lit((*s).medium, ray, (*s).position, (*s).voxel, frame.light_direction);
-        (*walk).contributing += 1u;
-    }
     return visible;
+}
+
+fn take_sample(ray: Ray, walk: ptr<function, Walk>, s: ptr<function, Sample>) {
+    (*s).medium = lit((*s).medium, ray, (*s).position, (*s).voxel, frame.light_direction);
+    (*walk).contributing += 1u;
 }

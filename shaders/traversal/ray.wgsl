@@ -61,6 +61,7 @@ fn ray_through(pixel: vec2u) -> Ray {
     if ray.begin < ray.end {
         ray.first = floor(ray.begin / frame.step + ray.shift + SLACK_OF_STEP);
         ray.last = max(ray.first + 1.0, ceil(ray.end / frame.step + ray.shift - SLACK_OF_STEP));
+        ray.cut = vec2f(ray.begin, -ray.end) - (vec2f(ray.first, -ray.last) - vec2f(ray.shift, -ray.shift)) * frame.step;
     }
     return ray;
 }
@@ -72,13 +73,10 @@ fn distance_of(point: vec3f, origin: vec3f, direction: vec3f) -> f32 {
 
 /// The segment that a sample stands for, and its place there. The first and the last segment may be cut short.
 fn place_of(ray: Ray, index: f32) -> Place {
-    let start = (index - ray.shift) * frame.step;
-    let low = select(start, ray.begin, index <= ray.first);
-    let high = select(start + frame.step, ray.end, index + 1.0 >= ray.last);
-    let whole = index > ray.first && index + 1.0 < ray.last;
-    let share = select(0.5, 1.0, SEGMENT_ENDS);
-    let length = select(high - low, frame.step, whole);
-    return Place(select(low + share * length, start + share * frame.step, whole), length);
+    let before = select(0.0, ray.cut.x, index <= ray.first);
+    let after = select(0.0, ray.cut.y, index >= ray.last - 1.0);
+    let whole = (index - ray.shift + select(0.5, 1.0, SEGMENT_ENDS)) * frame.step;
+    return Place(whole + select(0.5 * (before - after), -after, SEGMENT_ENDS), frame.step - (before + after));
 }
 
 /// View depth, world units.

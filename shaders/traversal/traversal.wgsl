@@ -43,7 +43,8 @@
 //! slot lattice:
 //! fn lattice_shift(pixel: vec2u) -> f32
 //! slot stepping:
-//! fn next_sample(ray: Ray, walk: ptr<function, Walk>, s: ptr<function, Sample>) -> bool
+//! fn find_sample(ray: Ray, walk: ptr<function, Walk>, s: ptr<function, Sample>) -> bool
+//! fn take_sample(ray: Ray, walk: ptr<function, Walk>, s: ptr<function, Sample>)
 //! slot gaps:
 //! fn in_gap(p: vec3f) -> bool
 //! slot slope:
@@ -82,7 +83,8 @@ fn traverse(@builtin(global_invocation_id) id: vec3u) {
 #end
     var walk = begin_walk(ray);
     var s: Sample;
-    while next_sample(ray, &walk, &s) {
+    while find_sample(ray, &walk, &s) {
+        take_sample(ray, &walk, &s);
         if !s.known {
             continue;
         }

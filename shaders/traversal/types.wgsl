@@ -57,6 +57,8 @@ struct Ray {
     last: f32,
     /// How far the lattice is moved towards the viewer, in steps, at least 0 and less than 1.
     shift: f32,
+    /// How much of the first and of the last segment is cut off.
+    cut: vec2f,
     /// View depth at distance 0, and its growth with distance, world units.
     depth: f32,
     depth_slope: f32,
